@@ -60,7 +60,7 @@ def test_a_basis_that_mixes_knots_is_a_border_beside_the_band() -> None:
     basis = sparse.csc_matrix(sparse.hstack([course[:, None] * [[1.0]], single[:, rng.permutation(KNOTS)]]))
     program = replace(
         whole, P=sparse.csc_matrix(basis.T @ whole.P @ basis), q=frozen(basis.T @ whole.q), basis=basis,
-        A=sparse.csc_matrix(whole.A @ basis), variable_bounds=frozen(np.full(KNOTS + 1, 1e3)),
+        A=sparse.csc_matrix(whole.A @ basis), box=frozen(np.full(KNOTS + 1, 1e3)),
     )  # fmt: skip
     found, second = banded_.solve(program, Settings()), clarabel_.solve(program, Settings())
     assert found is not None

@@ -59,9 +59,23 @@ def test_a_true_optimum_verifies_and_tampering_does_not(seed: int) -> None:
     assert not judge_optimal(program, solution.x, 1.01 * solution.z + 1e-3).verified
     assert not judge_optimal(program, solution.x, np.zeros_like(solution.z)).verified
     assert not judge_optimal(program, np.full(5, np.nan), solution.z).verified
-    assert not judge_optimal(
-        replace(program, variable_bounds=frozen(np.full(5, 1e-6))), solution.x, solution.z
-    ).verified
+
+
+def test_an_optimum_far_off_is_one_within_the_box_alone() -> None:
+    cap = program_of([[0.0]], [-1.0], [[1.0]], [2e3], cones=((Kind.NONNEGATIVE, 1, 1),))
+    x, z = np.array([2e3]), np.array([1.0])
+    assert judge_optimal(cap, x, z).verified
+    assert not judge_optimal(replace(cap, box=frozen([1.9e3])), x, z).verified
+
+
+def test_a_box_is_worked_out_when_it_is_asked_for() -> None:
+    asked = []
+    program = replace(random_program(0), box=lambda: asked.append(1) or np.full(5, 7.0))
+    solution = clarabel_.solve(program, Settings())
+    assert judge_optimal(program, solution.x, solution.z).verified
+    assert not asked
+    assert program.variable_bounds.tolist() == program.variable_bounds.tolist() == [7.0] * 5
+    assert asked == [1]
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -25,10 +25,10 @@ from synergrip.grasps.stack import GraspStack
 from synergrip.linalg import Array
 from synergrip.log import LOG
 from synergrip.planning.accuracy import SHOWN
+from synergrip.statics.accuracy import shares
 from synergrip.statics.analyses import AnalysisGroup, analyses_for_plans
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.each import Each
-from synergrip.statics.response import shares
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 

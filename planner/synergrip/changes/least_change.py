@@ -171,7 +171,7 @@ def with_turns(program: Program, columns: Sequence[Array], far: Sequence[float],
     return replace(
         program, P=sparse.csc_matrix((n + k, n + k)), q=frozen(np.append(np.zeros(n), weight)), constant=0.0,
         A=sparse.csc_matrix(sparse.vstack([first, last])), b=frozen(np.concatenate([program.b, np.zeros(k), ends])),
-        variable_bounds=frozen(np.append(np.maximum(program.variable_bounds, LARGEST), reach)),
+        box=frozen(np.append(np.maximum(program.variable_bounds, LARGEST), reach)),
         blocks=(*program.blocks, *blocks),
     )  # fmt: skip
 

@@ -34,7 +34,7 @@ def of_rows(program: Program, keep: Mask) -> Program:
     n = len(seen)
     return replace(
         program, P=sparse.csc_matrix((n, n)), q=frozen(np.zeros(n)), A=sparse.csc_matrix(program.A[:, seen][keep]),
-        b=frozen(program.b[keep]), blocks=tuple(blocks), variable_bounds=frozen(program.variable_bounds[seen]),
+        b=frozen(program.b[keep]), blocks=tuple(blocks), box=frozen(program.variable_bounds[seen]),
         basis=None, constant=0.0,
     )  # fmt: skip
 
@@ -81,5 +81,5 @@ def proven_without(program: Program, ray: Array, rows: Mask) -> bool:
     keep, weight = ~whole_cones(program, rows), np.abs(ray) * row_sizes(program)
     if weight[~keep].max(initial=0.0) > NEXT_TO_NOTHING * weight.max(initial=0.0):
         return False
-    wide = replace(program, variable_bounds=frozen(np.maximum(program.variable_bounds, LARGEST)))
+    wide = replace(program, box=frozen(np.maximum(program.variable_bounds, LARGEST)))
     return proof(of_rows(wide, keep), (ray[keep],)).verified

@@ -193,7 +193,7 @@ def _of_friction(asked: Asked) -> Iterator[Dial[Asked]]:
 def friction_dial(asked: Asked) -> Dial[Asked] | None:
     """Return the friction of all contacts, by one factor; spin friction goes along; None without friction."""
     least = min((contact.friction for contact in asked.grasp.contacts if contact.friction > 0), default=0.0)
-    return _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least) if least > 0 else None
+    return _friction(asked, asked.grasp.contact_names, least) if least > 0 else None
 
 
 def knots_dial(asked: Asked) -> Dial[Asked] | None:

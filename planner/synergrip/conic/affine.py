@@ -34,12 +34,16 @@ class Affine(Value):
             wanted = f"shape (p, {m}), a column for each quantity, or ({T}, p, {m}) with one matrix for each knot"
             hint = "; one row is linear[None, :]" if found is not None and found.shape == (m,) else ""
             raise InputError.at("Affine.after.linear", f"expected {wanted}; got {described(linear)}{hint}")
-        if found.ndim > self.matrix.ndim:  # one product with the rows of all knots is many times as fast
-            p = found.shape[1]
-            matrix = (found.reshape(T * p, m) @ self.matrix).reshape(T, p, self.matrix.shape[1])
+        return self.mapped(found)
+
+    def mapped(self, linear: Array) -> Affine:
+        """Return what `after` does for a matrix, or one for each knot, that is known to fit."""
+        if linear.ndim > self.matrix.ndim:  # one product with the rows of all knots is many times as fast
+            T, p, m = linear.shape
+            matrix = (linear.reshape(T * p, m) @ self.matrix).reshape(T, p, self.matrix.shape[1])
         else:
-            matrix = found @ self.matrix
-        return Affine(sealed(matrix), sealed(times(found, self.constant)))
+            matrix = linear @ self.matrix
+        return Affine(sealed(matrix), sealed(times(linear, self.constant)))
 
     @naming_arguments
     def plus(self, known: Array) -> Affine:

@@ -88,15 +88,19 @@ def stacked(bands: Sequence[Band], knots: int, n_v: int, extra: int) -> sparse.c
 
 def _of_one_knot(bands: Sequence[Band], n_v: int, extra: int) -> sparse.csc_matrix:
     """Return the bands below one another where there is nothing to repeat."""
-    matrices = [band.matrix if band.matrix.ndim == 2 else band.matrix[0] for band in bands]
-    whole = np.concatenate([np.zeros((0, n_v)), *matrices])
+    whole = np.zeros((sum(band.matrix.shape[-2] for band in bands), n_v + extra))
+    top = 0
+    for band in bands:
+        rows = slice(top, top := top + band.matrix.shape[-2])
+        whole[rows, :n_v] = band.matrix if band.matrix.ndim == 2 else band.matrix[0]
+        if extra:
+            whole[rows, n_v] = band.scalar
     if not any(band.exact for band in bands):
-        whole = without_rounding(whole)
-    if extra:
-        whole = np.hstack([whole, np.concatenate([np.zeros(0), *(band.scalar for band in bands)])[:, None]])
-    column, row = np.nonzero(whole.T)
-    ends = np.searchsorted(column, np.arange(n_v + extra + 1)).astype(np.int32)
-    return sparse.csc_matrix((whole[row, column], row.astype(np.int32), ends), shape=whole.shape)
+        whole[:, :n_v] = without_rounding(whole[:, :n_v])
+    filled = whole.T != 0
+    ends = np.zeros(n_v + extra + 1, dtype=np.int32)
+    np.cumsum(filled.sum(axis=1), out=ends[1:])
+    return sparse.csc_matrix((whole.T[filled], np.nonzero(filled)[1].astype(np.int32), ends), shape=whole.shape)
 
 
 def _parts(band: Band, top: int, knots: int) -> list[_Part]:

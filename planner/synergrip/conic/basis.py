@@ -39,10 +39,15 @@ def inverse(basis: sparse.csc_matrix) -> sparse.csr_matrix:
     return sparse.csr_matrix(sparse.diags(1 / squared) @ basis.T)
 
 
-def transposed_product(A: sparse.csc_matrix, y: Array) -> Array:
-    """Return ``A'y`` (n,) for y (m,); of a small A it takes longer to make A' than to multiply by it."""
-    if A.shape[0] * A.shape[1] <= SMALL:
-        return np.asarray(y @ A.toarray())
+def for_products(A: sparse.csc_matrix) -> sparse.csc_matrix | Array:
+    """Return a matrix as it is multiplied fastest: a small one with its zeros."""
+    return A.toarray() if A.shape[0] * A.shape[1] <= SMALL else A
+
+
+def transposed_product(A: sparse.csc_matrix | Array, y: Array) -> Array:
+    """Return ``A'y`` (n,) for y (m,); of a sparse A it takes longer to make A' than to multiply by it."""
+    if isinstance(A, np.ndarray):
+        return np.asarray(y @ A)
     columns = np.repeat(np.arange(A.shape[1]), np.diff(A.indptr))
     return np.asarray(np.bincount(columns, A.data * y[A.indices], A.shape[1]), dtype=np.float64)
 

@@ -45,19 +45,26 @@ def within_bounds(
     limit: str, names: Sequence[str], value: Affine, lower: Array, upper: Array, unit: Array
 ) -> list[Rows]:
     """Return the rows of `within` for arrays that are known to fit, as those of the limits of this package are."""
-    result, whole = [], value.matrix / unit[:, None]
-    for side, bound, sign in (("lowest", lower, 1.0), ("highest", upper, -1.0)):
+    result = []
+    for side, bound in (("lowest", lower), ("highest", upper)):
         finite: NDArray[np.bool_] = np.isfinite(bound)
-        keep = finite if finite.ndim == 1 else np.all(finite, axis=0)
-        if not keep.any():
+        if finite.all():
+            result.append(one_bound(limit, names, value, bound, unit, side))
             continue
-        matrix, slack = whole if sign > 0 else -whole, sign * (value.constant - bound) / unit
-        own = names
-        if not keep.all():
-            matrix, slack = matrix[..., keep, :], slack[:, keep]
-            own = [name for name, kept in zip(names, keep, strict=True) if kept]
-        result.append(nonnegative(limit, items_of(own, side), Affine(sealed(matrix), sealed(slack))))
+        keep = np.flatnonzero(finite if finite.ndim == 1 else np.all(finite, axis=0)).tolist()
+        if keep:
+            own = [names[at] for at in keep]
+            result.append(one_bound(limit, own, value.taken(keep), bound[..., keep], unit[keep], side))
     return result
+
+
+def one_bound(
+    limit: str, names: Sequence[str], value: Affine, bound: Array | float, unit: Array | float, side: str
+) -> Rows:
+    """Return the rows of one side of `within`, "lowest" or "highest", for finite bounds: (m,), (T, m) or a number."""
+    signed = np.asarray(unit if side == "lowest" else -unit)
+    slack = (value.constant - bound) / signed
+    return nonnegative(limit, items_of(names, side), Affine(sealed(value.matrix / signed[..., None]), sealed(slack)))
 
 
 def _judged(limit: object, names: object, value: object, **given: object) -> tuple[Array, ...]:

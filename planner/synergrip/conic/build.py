@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial
 
 import numpy as np
 from scipy import sparse
@@ -37,14 +38,18 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     if P.data.size:
         P.data, linear = P.data / worth, linear / worth
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
+    box, constant = partial(_box, formulation, tuple(limits), extra), _constant(cost) / worth
+    return Program(P, frozen(q), asked.A, asked.b, asked.blocks, T, n_v, box, basis, constant)
+
+
+def _box(formulation: Formulation, limits: Sequence[Limit], extra: int) -> Array:
+    """Return the `variable_bounds` of the program."""
+    T, n_v, basis = formulation.knots, formulation.n_v, formulation.free_basis
     bounds = variable_bounds(formulation, limits)
     bounds = bounds.ravel() if bounds.size == T * n_v else np.tile(bounds, T)
     if basis is not None:
         bounds = np.asarray(abs(inverse(basis)) @ bounds)
-    if extra:
-        bounds = np.append(bounds, farthest(formulation))
-    constant = _constant(cost) / worth
-    return Program(P, frozen(q), asked.A, asked.b, asked.blocks, T, n_v, frozen(bounds), basis, constant)
+    return frozen(np.append(bounds, farthest(formulation)) if extra else bounds)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -170,7 +175,13 @@ def _quadratic(
             B = in_basis(stacked([band], knots, n_v, extra), basis, extra)
             own, linear = sparse.csc_matrix(B.T @ B), B.T @ part.constant.ravel()
         P, q = own if P is None else P + own, q + linear
-    return sparse.csc_matrix((n, n)) if P is None else P, q
+    return _none_quadratic(n) if P is None else P, q
+
+
+@lru_cache(maxsize=64)
+def _none_quadratic(n: int) -> sparse.csc_matrix:
+    """Return P (n, n) without entries, the same one for all programs of one size."""
+    return sparse.csc_matrix((n, n))
 
 
 def _of_each_knot(part: Squares, knots: int, n_v: int) -> tuple[sparse.csc_matrix, Array]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.conic.basis import transposed_product
+from synergrip.conic.basis import for_products, transposed_product
 from synergrip.conic.cones import distance_to_cones, project_on_dual, row_sizes
 from synergrip.conic.program import Program
 from synergrip.documents.naming import naming_arguments
@@ -83,20 +83,20 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     """Judge the claim that x (n,) is optimal, with multipliers z (m,) of the rows."""
     if not (np.isfinite(x).all() and np.isfinite(z).all()):
         return Certificate("optimal", False)
-    primal = max(
-        distance_to_cones(program, program.b - program.A @ x),
-        float((np.abs(x) - program.variable_bounds).max(initial=0.0)),
-    )
+    farthest, A = largest_size(x), for_products(program.A)
+    primal = distance_to_cones(program, program.b - A @ x)
+    if farthest > FAR:  # nearer by, nothing but the cones bounds unknowns
+        primal = max(primal, float((np.abs(x) - program.variable_bounds).max()))
     moved = project_on_dual(program, z)
-    Px = program.P @ x
-    stationarity = Px + program.q + transposed_product(program.A, moved)
+    Px = program.P @ x if program.P.data.size else np.zeros(len(x))
+    stationarity = Px + program.q + transposed_product(A, moved)
     size = max(1.0, largest_size(program.q), largest_size(Px))
     dual = largest_size(stationarity) / size
     half, constant = float(x @ Px) / 2, program.constant
     value, bound = half + float(program.q @ x), -half - float(program.b @ moved)
     # relative to the goal's value, or to the terms that cancel in it
     # what is left of the stationarity, times unknowns far from 1, may be missing from the bound
-    missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0)) if largest_size(x) > FAR else 0.0
+    missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0)) if farthest > FAR else 0.0
     terms = max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
     gap = (abs(value - bound) + missing) / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
@@ -141,7 +141,7 @@ def judge_infeasible(program: Program, y: Array) -> Certificate:
         return Certificate("infeasible", False)
     ray = inside / drop
     moved = float(np.abs(ray - y / drop).max())
-    leak = np.abs(transposed_product(program.A, ray))
+    leak = np.abs(transposed_product(for_products(program.A), ray))
     allowance = ROUNDING * float(np.abs(program.b) @ np.abs(ray))
     sign = -1.0 + float(leak @ program.variable_bounds) + allowance
     return Certificate("infeasible", sign < 0, float(leak.max(initial=0.0)), moved, sign, frozen(ray))

@@ -141,29 +141,29 @@ class Formulation(Value):
         """Contact forces lambda (n_l) [N, N m]."""
         of_load = self.map_of(lambda at: at.response.dlambda_dw)
         known = self.map_of(lambda at: forces_at_start(at.response)) + product(of_load, self.load_change)
-        return self.departed("force", self.alpha.after(self.map_of(lambda at: at.spaces.E_s)).plus(known))
+        return self.departed("force", self.alpha.mapped(self.map_of(lambda at: at.spaces.E_s)).plus(known))
 
     @cached_property
     def torque(self) -> Affine:
         """Joint torques tau = J' lambda (n_q) (6) [N m]."""
-        return self.force.after(self.map_of(lambda at: at.response.grasp.J.mT))
+        return self.force.mapped(self.map_of(lambda at: at.response.grasp.J.mT))
 
     @cached_property
     def effort(self) -> Affine:
         """Actuator efforts sigma = S' tau (n_z)."""
-        return self.torque.after(self.map_of(lambda at: at.response.grasp.S.mT))
+        return self.torque.mapped(self.map_of(lambda at: at.response.grasp.S.mT))
 
     @cached_property
     def reference(self) -> Affine:
         """Synergy references dz_r (n_z) by (35)."""
         matrices, constants = zip(*((part.matrix, part.constant) for part in self._parts), strict=True)
-        return Affine(np.vstack(matrices), np.hstack(constants)).after(self.map_of(lambda at: at.coordinates.inverse))
+        return Affine(np.vstack(matrices), np.hstack(constants)).mapped(self.map_of(lambda at: at.coordinates.inverse))
 
     @cached_property
     def joint(self) -> Affine:
         """Joint displacements dq (n_q) from the start [rad or m]."""
         of_load = self.map_of(lambda at: at.response.dq_dw)
-        moved = self.reference.after(self.map_of(lambda at: at.response.dq_dzr))
+        moved = self.reference.mapped(self.map_of(lambda at: at.response.dq_dzr))
         return self.departed("joint", moved.plus(product(of_load, self.load_change)))
 
     @cached_property
@@ -186,7 +186,7 @@ class Formulation(Value):
     @cached_property
     def rigid(self) -> Affine:
         """Rigid part Gamma_ucs beta of the object displacement (6) [m, rad]."""
-        return self.beta.after(self.map_of(lambda at: at.spaces.Gamma_ucs))
+        return self.beta.mapped(self.map_of(lambda at: at.spaces.Gamma_ucs))
 
     @cached_property
     def elastic(self) -> Affine:
@@ -195,7 +195,7 @@ class Formulation(Value):
         By (35) that comes from alpha alone; taken from it, no rounding makes it depend on gamma.
         """
         n_alpha = self.coordinates.dimensions[0]
-        return self.alpha.after(self.map_of(lambda at: at.response.du_dzr @ at.coordinates.inverse[..., :n_alpha]))
+        return self.alpha.mapped(self.map_of(lambda at: at.response.du_dzr @ at.coordinates.inverse[..., :n_alpha]))
 
     def rigid_motion(self, dz_r: Array) -> Array:
         """Return the rigid motion Gamma_ucs beta (T, 6) [m, rad] of the object under references (T, n_z)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
@@ -76,8 +76,8 @@ class Program(Value):
     knots: int
     n_v: int
     """Unknowns at each knot."""
-    variable_bounds: Array
-    """(n,) every unknown is also bounded by |x| <= these, which the limits imply or no plan exceeds."""
+    box: Array | Callable[[], Array]
+    """`variable_bounds`, or what works them out: a proof needs them, an answer rarely does."""
     basis: sparse.csc_matrix | None = None
     """(T n_v, m) orthogonal columns that the knots' unknowns, stacked, are made of; None when they are any."""
     constant: float = 0.0
@@ -87,6 +87,11 @@ class Program(Value):
         """Return the sizes."""
         cones, limits = sum(block.cones for block in self.blocks), len({block.limit for block in self.blocks})
         return f"Program({len(self.q)} unknowns, {len(self.b)} rows in {cones} cones of {limits} limits)"
+
+    @cached_property
+    def variable_bounds(self) -> Array:
+        """(n,) every unknown is also bounded by |x| <= these, which the limits imply or no plan exceeds."""
+        return self.box() if callable(self.box) else self.box
 
     def slices(self) -> Iterator[tuple[Block, slice]]:
         """Yield each block with its rows."""

@@ -40,7 +40,7 @@ def relaxed(program: Program) -> Program:
     return replace(
         program, P=sparse.csc_matrix((n + 1, n + 1)), q=frozen(np.eye(n + 1)[n]), A=A,
         b=frozen(np.append(program.b, 1.0)), constant=0.0,
-        variable_bounds=frozen(np.append(program.variable_bounds, LARGEST)),
+        box=frozen(np.append(program.variable_bounds, LARGEST)),
         blocks=(*program.blocks, Block("relaxation", Kind.NONNEGATIVE, 1, (Item("least"),), 0, 1)),
     )  # fmt: skip
 

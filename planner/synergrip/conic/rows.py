@@ -14,7 +14,7 @@ from synergrip.conic.affine import Affine
 from synergrip.documents.judging import Arguments, are_floats, as_numbers, described, is_number
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, sealed
 from synergrip.values import Value
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ class Rows(Value):
 
 def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:
     """Return rows ``value >= 0``, with what earlier knots add to the value."""
-    return Rows(limit, Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, frozen(np.zeros(len(items))), earlier)
+    return Rows(limit, Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, sealed(np.zeros(len(items))), earlier)
 
 
 @naming_arguments

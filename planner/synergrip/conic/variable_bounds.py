@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from synergrip.conic.affine import Affine
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.limits.friction_cone import FrictionCone, least_cone_unit
+from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
 from synergrip.linalg import Array, Places, gram, null_spaces
 
@@ -46,7 +46,7 @@ def variable_bounds(formulation: Formulation, limits: Sequence[Limit], knots: Pl
 
 def farthest(formulation: Formulation) -> float:
     """Return the bound where no limit gives one: `LARGEST`, over the least friction where that is small."""
-    return LARGEST / least_cone_unit(formulation.response.grasp.contacts)
+    return LARGEST / formulation.response.grasp.least_cone_unit
 
 
 def _implied(value: Affine, limit: Array) -> Array:

@@ -148,7 +148,7 @@ def _cut(program: Program, keep: NDArray[np.bool_], A: sparse.csc_matrix, b: Arr
     bounds = np.append(np.maximum(program.variable_bounds, LARGEST), np.full(more, LARGEST))
     return replace(
         program, P=sparse.csc_matrix((n, n)), q=frozen(q), A=A, b=frozen(b), blocks=tuple(blocks), constant=0.0,
-        variable_bounds=frozen(bounds),
+        box=frozen(bounds),
     )  # fmt: skip
 
 

@@ -108,5 +108,5 @@ def slip_margins(cones: Sequence[Images], normal: Array, forces: Array) -> Array
         image = each.images(forces)
         inside = image[..., 0] - np.sqrt((image[..., 1:] ** 2).sum(axis=-1))
         for k, contact in enumerate(each.contacts.tolist()):
-            margins[:, contact] = np.minimum(margins[:, contact], inside[:, k])
+            np.minimum(margins[:, contact], inside[:, k], out=margins[:, contact])
     return np.where(normal < 0, np.minimum(margins, normal), margins)

@@ -171,6 +171,16 @@ class Grasp(ByContent):
         """The friction cones of all contacts, those of one size together."""
         return cones_of(self.contacts, self.rows)
 
+    @cached_property
+    def least_cone_unit(self) -> float:
+        """The smallest of what the friction cones are divided by: the least friction, where there is little."""
+        return min(float(cones.unit.min()) for cones in self.friction_cones)
+
+    @cached_property
+    def contact_names(self) -> tuple[str, ...]:
+        """The names of the contacts."""
+        return tuple(contact.name for contact in self.contacts)
+
     def slip_margins(self, forces: Array) -> Array:
         """Return the slip margins (T, n_c) [N] of contact forces (T, n_l), as `Contact.slip_margin` says of each."""
         return slip_margins(self.friction_cones, forces[:, self.normal_rows], forces)

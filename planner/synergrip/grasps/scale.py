@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -69,9 +70,14 @@ class Scale(Metric):
     centroid: Array
     """(3,) centroid of the contacts from B [m]."""
 
+    @cached_property
+    def of_wrench(self) -> Array:
+        """(6, 6) by which wrenches are multiplied from the right: ``motion^-1``."""
+        return frozen(self.scaled_wrenches(np.eye(6)))
+
     def wrench(self, w: Array) -> Array:
         """Return wrenches (..., 6) in scaled coordinates [N]."""
-        return self.scaled_wrenches(np.asarray(w))
+        return np.asarray(w @ self.of_wrench)
 
     def largest_force(self, forces: Array) -> float:
         """Return the largest component of contact forces (..., n_l), spin moments divided by the length [N]."""

@@ -81,7 +81,7 @@ def measures(grasp: Grasp, times: Array, forces: Array, least: Sequence[float] |
     slip = grasp.slip_margins(forces)
     nearest = (contact.nearest_cone(own) for contact, own in pairs)
     head, tail, mu = (np.stack(parts, axis=1) for parts in zip(*nearest, strict=True))
-    names, normal, shears = tuple(contact.name for contact in grasp.contacts), forces[:, grasp.normal_rows], tail > 0
+    names, normal, shears = grasp.contact_names, forces[:, grasp.normal_rows], tail > 0
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(shears, head / tail, np.inf)
         needed = np.where(shears, np.where(head > 0, mu * tail / head, np.inf), 0.0)

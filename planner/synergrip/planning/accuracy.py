@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.errors import SelfCheckError
 from synergrip.planning.outcome import Check
-from synergrip.statics.motion import Motion, largest_term
+from synergrip.statics.motion import Motion
 from synergrip.statics.response import Response
 
 SHOWN = 1e-8
@@ -80,18 +80,23 @@ def refuse_doubtful_forces(response: Response, checks: Iterable[Check]) -> None:
             raise InDoubtError("; ".join((why, *accuracy_notes(response))))
 
 
-def response_check(response: Response, motion: Motion) -> Iterator[Check]:
-    """Yield the check of the response itself when there is anything to tell of it."""
-    doubt = _forces_in_doubt(response, motion)
-    if doubt > SHOWN:
-        yield Check(RESPONSE, doubt, RELIED_ON)
+def response_check(response: Response, motion: Motion, forces: float, terms: float) -> Iterator[Check]:
+    """Yield the check of the response itself when there is anything to tell of it.
+
+    Args:
+        response: of the grasp.
+        motion: what references and load do.
+        forces: the largest contact force in it [N].
+        terms: the largest of the terms that these are sums of [N].
+    """
+    unknown, size = _unknown(response, motion), max(forces, CANCELLED * terms)  # rounding of nothing is no doubt
+    if unknown > SHOWN * size:
+        yield Check(RESPONSE, unknown / size if size > 0 else np.inf, RELIED_ON)
 
 
-def _forces_in_doubt(response: Response, motion: Motion) -> float:
-    """Return how far forces may be from the truth, relative to the largest of them; rounding of nothing is no doubt."""
+def _unknown(response: Response, motion: Motion) -> float:
+    """Return how far forces may be from the truth [N]."""
     of_references, of_load = response.accuracy["dlambda_dzr"], response.accuracy["dlambda_dw"]
     references = float(np.abs(motion.dz_r).sum(axis=1).max(initial=0.0))
     load = float(np.abs(response.scale.wrench(motion.wrench - response.grasp.w_0)).sum(axis=1).max(initial=0.0))
-    unknown = of_references.unknown * references + of_load.unknown * load
-    size = max(response.scale.largest_force(motion.forces), CANCELLED * largest_term(response, motion.dz_r))
-    return unknown / size if unknown > 0 else 0.0
+    return of_references.unknown * references + of_load.unknown * load

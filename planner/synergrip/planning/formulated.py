@@ -14,7 +14,7 @@ from synergrip.linalg import RANK_TOLERANCE, Array
 from synergrip.planning.free import refuse_use_of_free
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.control import refuse_control
-from synergrip.tasks.scaling import expected_units, units_of
+from synergrip.tasks.scaling import expected_and_stated
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import followed
 
@@ -36,13 +36,13 @@ def formulated(analysis: Analysis, task: TimedTask, *, redundancy: bool) -> Form
     if task.control is not None:
         refuse_control(analysis, task.control)
     follow = followed(analysis, task)
-    sizes = expected_units(analysis, task, follow.beta, follow.target)
+    sizes, stated = expected_and_stated(analysis, task, follow.beta, follow.target)
     if task.allowed is not None:
         refuse_unheld(analysis, task.allowed, task.times)
     found = formulate(
         analysis.response, analysis.spaces, analysis.coordinates,
         times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, target=follow.target,
-        units=sizes, redundancy=redundancy, stated=units_of(analysis, task),
+        units=sizes, redundancy=redundancy, stated=stated,
     )  # fmt: skip
     return found if task.allowed is None else replace(found, allowed=task.allowed.on(found))
 

@@ -11,8 +11,8 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.well_formed import usage_of
 from synergrip.documents.quantities import in_mm
-from synergrip.errors import InputError, Issue, SelfCheckError
-from synergrip.linalg import Array, frozen
+from synergrip.errors import InputError, Issue, SelfCheckError, SynergripError
+from synergrip.linalg import Array, frozen, largest_size, sealed
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.planning.between import LIMIT, Between, between
 from synergrip.planning.free import free_notes
@@ -59,14 +59,15 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     cases = in_cases(task, analysis, formulation, motion.dz_r)
     checks += case_checks(cases, LIMIT)
     there = found.usages if found is not None and task.between == "hold" else ()
-    of_instants, of_cases = task.of_instants, limits_of_cases(task)
-    asked = [*zip(task.all_limits, usages, strict=True), *zip(of_instants, there, strict=bool(there))]
-    asked += [pair for case in cases for pair in zip(of_cases, case.usages, strict=True)]
-    _judge(checks, exact, asked, analysis.response.scale.largest_force(motion.forces))
+    if not all(check.passed for check in checks):
+        of_instants, of_cases = task.of_instants, limits_of_cases(task)
+        asked = [*zip(task.all_limits, usages, strict=True), *zip(of_instants, there, strict=bool(there))]
+        asked += [pair for case in cases for pair in zip(of_cases, case.usages, strict=True)]
+        raise _failed(checks, exact, asked, analysis.response.scale.largest_force(motion.forces))
     rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(
-        task, analysis, formulation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
-        frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
+        task, analysis, formulation.whole, motion, sealed(alpha), sealed(beta), sealed(gamma),
+        sealed(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
         (*free_notes(analysis), *accuracy_notes(analysis.response), *undone_notes(analysis, task), *stage.notes,
          *ranges_left(task, analysis.grasp, motion.dq), *_far(analysis, motion), *passed_over(found),
          *analysis.frame_notes), found,
@@ -74,10 +75,10 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     )  # fmt: skip
 
 
-def _judge(
+def _failed(
     checks: Sequence[Check], exact: Sequence[Check], asked: Sequence[tuple[Limit, Usage]], largest: float
-) -> None:
-    """Raise when a check fails: a doubt when it is only that the program's digits do not suffice for a limit.
+) -> SynergripError:
+    """Return the error of failed checks: a doubt when it is only that the program's digits do not suffice for a limit.
 
     A limit of a user's own says by its `usage` what its `rows` do not: that is a mistake in it, and none of synergrip.
 
@@ -87,18 +88,16 @@ def _judge(
         asked: the limits that count, each with what the plan uses of it.
         largest: component of all contact forces [N]; the program knows none better than to a share of it.
     """
-    failed = [check for check in checks if not check.passed]
-    if not failed:
-        return
+    failed = (check for check in checks if not check.passed)
     said = "; ".join(f"{check.name}: {check.error:.2e} exceeds {check.tolerance:.0e}" for check in failed)
     beyond = [(limit, u) for limit, u in asked if u.violation > LIMIT]
     rough = all(u.violation < DIGITS or (u.unit == "N" and u.excess.max() < OF_FORCES * largest) for _, u in beyond)
     if all(check.passed for check in exact):
         if rough:
-            raise InDoubtError(f"the plan that was found misses limits by more than their tolerance ({said})")
+            return InDoubtError(f"the plan that was found misses limits by more than their tolerance ({said})")
         if all(is_own(type(limit)) for limit, _ in beyond):
-            raise InputError([_contradiction(limit, usage) for limit, usage in beyond])
-    raise SelfCheckError(f"the plan fails its own check ({said}); please report this problem")
+            return InputError([_contradiction(limit, usage) for limit, usage in beyond])
+    return SelfCheckError(f"the plan fails its own check ({said}); please report this problem")
 
 
 def _contradiction(limit: Limit, usage: Usage) -> Issue:
@@ -161,30 +160,29 @@ def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, A
         motion: what the references do.
         wanted: alpha, beta, gamma that the references are meant to produce.
     """
-    response, grasp = analysis.response, analysis.grasp
-    balance = response.scale.wrench(motion.forces @ grasp.G.T + motion.wrench)
-    start = forces_at_start(response) + (motion.wrench - grasp.w_0) @ response.dlambda_dw.T
-    internal = response.scale.wrench((motion.forces - start) @ grasp.G.T)
-    sums = (response.scale.largest_force(forces) for forces in (motion.forces, start))
-    size = max(*sums, largest_term(response, motion.dz_r), 1e-12)
-    expected = analysis.coordinates.references(*wanted)
+    response, coordinates, G = analysis.response, analysis.coordinates, analysis.grasp.G
+    start = forces_at_start(response) + (motion.wrench - analysis.grasp.w_0) @ response.dlambda_dw.T
+    change, whole = motion.forces - start, np.concatenate(wanted, axis=1)
+    balance = response.scale.wrench(motion.forces @ G.T + motion.wrench)
+    internal = response.scale.wrench(change @ G.T)
+    forces, terms = response.scale.largest_force(motion.forces), largest_term(response, motion.dz_r)
+    size = max(forces, response.scale.largest_force(start), terms, 1e-12)
+    expected = whole @ coordinates.inverse.T
     # and so are the coordinates: relative to them M may be as ill-conditioned as the stiffnesses of the grasp
-    got = np.concatenate(analysis.coordinates.coordinates(motion.dz_r), axis=1)
-    of_terms = float(np.linalg.norm(motion.dz_r, axis=1).max()) * np.linalg.norm(analysis.coordinates.M, axis=1)
-    missed = np.abs(got - np.concatenate(wanted, axis=1)).max(axis=0) / np.maximum(of_terms, 1e-300)
-    produced = start + wanted[0] @ analysis.spaces.E_s.T - motion.forces
+    of_terms = float(np.linalg.norm(motion.dz_r, axis=1).max()) * coordinates.row_sizes
+    missed = np.abs(motion.dz_r @ coordinates.M.T - whole).max(axis=0) / np.maximum(of_terms, 1e-300)
+    produced = wanted[0] @ analysis.spaces.E_s.T - change
     known = max(EXACT, response.accuracy["dlambda_dzr"].doubt)
     return (
-        Check(EQUILIBRIUM, float(np.abs(balance).max(initial=0.0)) / size, EXACT),
-        Check("internal force", float(np.abs(internal).max(initial=0.0)) / size, EXACT),
+        Check(EQUILIBRIUM, largest_size(balance) / size, EXACT),
+        Check("internal force", largest_size(internal) / size, EXACT),
         Check("references", _relative(motion.dz_r - expected, expected), EXACT),
         Check("forward maps", float(missed.max(initial=0.0)), EXACT),
         Check("forces from alpha", response.scale.largest_force(produced) / size, known),
-        *response_check(response, motion),
+        *response_check(response, motion, forces, terms),
     )
 
 
 def _relative(difference: Array, reference: Array) -> float:
-    size = float(np.abs(reference).max(initial=0.0))
-    error = float(np.abs(difference).max(initial=0.0))
+    size, error = largest_size(reference), largest_size(difference)
     return error / size if size > 0 else error

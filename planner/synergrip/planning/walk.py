@@ -37,7 +37,7 @@ from synergrip.planning.walk_so_far import FOLLOWED, Walk, differs, gap_to, what
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
-from synergrip.tasks.scaling import expected_units, units_of
+from synergrip.tasks.scaling import expected_and_stated
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
 from synergrip.tasks.tracking_along import Steps, steps
@@ -251,10 +251,10 @@ class Walker:
             walk.references, walk.executed.joint, displacement, frozen(displacement + way.beside),
             sag_of(way.each.response, task.wrench, start), frozen(STEP * pace.step + 1.5 * moved),
         )  # fmt: skip
-        sizes = expected_units(start, task, np.zeros_like(beta), self.wanted, OF_PATH * walk.largest)
+        sizes, stated = expected_and_stated(start, task, 0.0 * beta, self.wanted, OF_PATH * walk.largest)
         formulation = formulate(
             start.response, start.spaces, start.coordinates, times=task.times, wrench=task.wrench, beta=beta,
             beta_basis=way.basis[:, :0] if self.effort.still else way.basis, target=self.wanted, units=sizes,
-            redundancy=True, stated=units_of(start, task), each=way.each,
+            redundancy=True, stated=stated, each=way.each,
         )  # fmt: skip
         return AlongPath.around_path(replace(formulation, allowed=task.allowed), path)

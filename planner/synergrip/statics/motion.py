@@ -43,7 +43,7 @@ class Motion(Value):
 def forces_at_start(response: Response | EachResponse) -> Array:
     """Return lambda_0 (n_l,), or (T, n_l) at each knot: as given, or the elastic reaction ``-G+ w_0`` to the load."""
     given = response.grasp.lambda_0
-    return np.asarray(given) if given is not None else -response.right_inverse @ response.grasp.w_0
+    return np.asarray(given) if given is not None else response.dlambda_dw @ response.grasp.w_0
 
 
 def largest_term(response: Response, dz_r: Array) -> float:
@@ -51,7 +51,7 @@ def largest_term(response: Response, dz_r: Array) -> float:
 
     Where these cancel to almost nothing, what is left is their rounding.
     """
-    return response.scale.largest_force(np.abs(dz_r) @ np.abs(response.dlambda_dzr).T)
+    return float((np.abs(dz_r) @ response.term_sizes).max(initial=0.0))
 
 
 def forward(response: Response, times: Array, dz_r: Array, wrench: Array, begun: Array | None = None) -> Motion:
@@ -65,13 +65,13 @@ def forward(response: Response, times: Array, dz_r: Array, wrench: Array, begun:
         begun: (n_l,) contact forces at the start [N, N m]; those of the grasp when None.
     """
     dw = wrench - response.grasp.w_0
-    change = dz_r @ response.dlambda_dzr.T + dw @ response.dlambda_dw.T
-    forces = (forces_at_start(response) if begun is None else begun) + change
+    change = sealed(dz_r @ response.of_references + dw @ response.of_load)
+    of_object = len(response.dlambda_dw)
+    of_joints, of_synergies = of_object + 6, of_object + 6 + len(response.dq_dw)
+    forces = (forces_at_start(response) if begun is None else begun) + change[:, :of_object]
     torques = forces @ response.grasp.J
-    sag = dw @ response.du_dw.T
-    dz = dz_r @ response.dz_dzr.T + dw @ response.dz_dw.T
     return Motion(
         frozen(times), frozen(dz_r), frozen(wrench), sealed(forces), sealed(torques),
-        sealed(torques @ response.grasp.S), sealed(dz_r @ response.du_dzr.T + sag), sealed(sag),
-        sealed(dz_r @ response.dq_dzr.T + dw @ response.dq_dw.T), sealed(dz),
+        sealed(torques @ response.grasp.S), change[:, of_object:of_joints], sealed(dw @ response.du_dw.T),
+        change[:, of_joints:of_synergies], change[:, of_synergies:],
     )  # fmt: skip

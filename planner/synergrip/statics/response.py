@@ -19,70 +19,14 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, Scale, scale_of
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import SINGULAR, Array, Decision, frozen
+from synergrip.statics.accuracy import FIGURES, Accuracy, accuracies, shares
 from synergrip.statics.restraint import NONE, refuse_load, restraint, supported, twists_of, without_support
 from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, Arithmetic, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
-from synergrip.values import ByName, Value
+from synergrip.values import Value
 
 ENOUGH = 1e-11
 """Relative error of the maps up to which float64 is believed; beyond it they are worked out in twice the digits."""
-FIGURES = tuple(f"d{name}_{cause}" for name in ("lambda", "u", "tau", "sigma", "z", "q") for cause in ("dzr", "dw"))
-"""The maps whose accuracy is known, in the order of `figures`."""
-
-
-@dataclass(frozen=True)
-class Accuracy:
-    """How well a map is known, by largest entries; lengths and newtons as `Scale` makes them comparable."""
-
-    size: float
-    """Of the map."""
-    whole: float
-    """What a share is a share of: `size`, or the terms that the entries are sums of where the map may be 0; 0 where it
-    is 0 for sure."""
-    lost: float
-    """What the arithmetic may have lost."""
-    changed: float
-    """About what changes when the grasp's numbers change by less than half a unit of their last digit."""
-
-    @property
-    def error(self) -> float:
-        """What the arithmetic may have lost, as a share of the map."""
-        return self._share(self.lost)
-
-    @property
-    def sensitivity(self) -> float:
-        """What the digits that the grasp's numbers do not have would change, as a share of the map."""
-        return self._share(self.changed)
-
-    @property
-    def unknown(self) -> float:
-        """The larger of what is lost and what changes, in the unit of the map."""
-        return max(self.lost, self.changed)
-
-    @property
-    def doubt(self) -> float:
-        """The same as a share of the map."""
-        return self._share(self.unknown)
-
-    def _share(self, amount: float) -> float:
-        return amount / self.whole if self.whole > 0 else 0.0 if amount == 0 else np.inf
-
-
-def accuracies(known: Array) -> ByName[Accuracy]:
-    """Return what `figures` (12, 4) say of the maps of one grasp, by their names."""
-    return ByName("accuracy", {name: Accuracy(*row) for name, row in zip(FIGURES, known.tolist(), strict=True)})
-
-
-def shares(amounts: Array, figures: Array) -> Array:
-    """Return amounts (...) as shares of their maps; of their terms where a map may be 0.
-
-    Args:
-        amounts: in the units of the maps.
-        figures: (..., 4) the fields of `Accuracy`.
-    """
-    whole = figures[..., 1]
-    none = np.where(amounts == 0, 0.0, np.inf)
-    return np.where(whole > 0, amounts / np.where(whole > 0, whole, 1.0), none)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -109,6 +53,20 @@ class Maps(Value):
         """(..., n_l, 6) ``G+ = K G' (G K G')^-1``, K = C^-1."""
         return -self.dlambda_dw
 
+    @cached_property
+    def of_references(self) -> Array:
+        """(..., n_z, n_l + 6 + n_q + n_z) what references do to forces, object, joints and synergies, side by side."""
+        return _side_by_side(self.dlambda_dzr, self.du_dzr, self.dq_dzr, self.dz_dzr)
+
+    @cached_property
+    def of_load(self) -> Array:
+        """(..., 6, n_l + 6 + n_q + n_z) what the load does to them."""
+        return _side_by_side(self.dlambda_dw, self.du_dw, self.dq_dw, self.dz_dw)
+
+
+def _side_by_side(*maps: Array) -> Array:
+    return frozen(np.concatenate(maps, axis=-2).mT)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Response(Maps):
@@ -130,6 +88,11 @@ class Response(Maps):
     def doubt(self) -> float:
         """The largest doubt of any map."""
         return max(each.doubt for each in self.accuracy.values())
+
+    @cached_property
+    def term_sizes(self) -> Array:
+        """(n_z, n_l) [N] sizes of the contact forces that a unit of each reference makes, moments over the length."""
+        return frozen(np.abs(self.dlambda_dzr * self.scale.force[:, None]).T)
 
     @cached_property
     def free(self) -> Array:

@@ -20,7 +20,8 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, scale_of
 from synergrip.grasps.stack import GraspStack, Matrices
 from synergrip.linalg import Array, Decisions, Places, decided, frozen
-from synergrip.statics.response import FIGURES, Maps, Response, accuracies, is_enough, maps_in_float64, respond
+from synergrip.statics.accuracy import FIGURES, accuracies
+from synergrip.statics.response import Maps, Response, is_enough, maps_in_float64, respond
 from synergrip.statics.saddle import STACKED
 from synergrip.statics.yielding import is_rigid
 

@@ -7,6 +7,7 @@ read in the projected form (35), ``M dz_r = (alpha, beta, gamma)``, whose M is s
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -36,6 +37,11 @@ class Coordinates(Value):
     def condition(self) -> float:
         """2-norm condition number of M; the largest, of many."""
         return float(np.linalg.cond(self.M).max(initial=1.0)) if self.M.size else 1.0
+
+    @cached_property
+    def row_sizes(self) -> Array:
+        """(..., n_z) the lengths of the rows of M."""
+        return np.asarray(np.linalg.norm(self.M, axis=-1))
 
     def references(self, alpha: Array, beta: Array, gamma: Array) -> Array:
         """Return dz_r (..., n_z) for alpha (..., dim E_s), beta (..., dim Gamma_ucs), gamma (..., dim Gamma_zr)."""

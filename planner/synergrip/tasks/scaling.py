@@ -11,7 +11,6 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation, Units
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
-from synergrip.conic.limits.friction_cone import least_cone_unit
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
@@ -23,7 +22,10 @@ from synergrip.tasks.timed_task import TimedTask
 
 def units_of(analysis: Analysis, task: TimedTask) -> Units:
     """Return the units in which the weights of a task are stated: of force, references and motion."""
-    force = max(_load(analysis, task), task.margin)
+    return _stated(analysis, task, _asked(analysis, task))
+
+
+def _stated(analysis: Analysis, task: TimedTask, force: float) -> Units:
     reference = 1.0
     for limit in task.limits:
         if isinstance(limit, SynergyReference) and np.any(np.isfinite(limit.limit)):
@@ -31,8 +33,10 @@ def units_of(analysis: Analysis, task: TimedTask) -> Units:
     return Units(force if force > 0 else smallest_cap(analysis, task), reference, _motion(task))
 
 
-def expected_units(analysis: Analysis, task: TimedTask, beta: Array, target: Array, known: float = 0.0) -> Units:
-    """Return the sizes near which the unknowns of a task are expected.
+def expected_and_stated(
+    analysis: Analysis, task: TimedTask, beta: Array, target: Array, known: float = 0.0
+) -> tuple[Units, Units]:
+    """Return the sizes near which the unknowns of a task are expected, and the units in which its weights are stated.
 
     Args:
         analysis: of the grasp.
@@ -42,7 +46,8 @@ def expected_units(analysis: Analysis, task: TimedTask, beta: Array, target: Arr
         known: [N] forces that there are whatever is asked, and beside which the unknowns must not drown.
     """
     least = max((limit.lower for limit in task.limits if isinstance(limit, NormalForce)), default=0.0)
-    force = max(_load(analysis, task), task.margin, least, _of_motion(analysis, task, target), known)
+    asked = _asked(analysis, task)
+    force = max(asked, least, _of_motion(analysis, task, target), known)
     if not force > 0:
         force = smallest_cap(analysis, task)
     n_alpha, n_beta, _ = analysis.coordinates.dimensions
@@ -52,7 +57,8 @@ def expected_units(analysis: Analysis, task: TimedTask, beta: Array, target: Arr
         moving = np.full(n_beta, np.linalg.norm(analysis.response.scale.twist(target), axis=1).max(initial=0.0))
     references = force * inverse[:, :n_alpha].sum(axis=1) + inverse[:, n_alpha : n_alpha + n_beta] @ moving
     reference = float(references.max(initial=0.0))
-    return Units(force, reference if reference > 0 else 1.0, _motion(task))
+    expected = Units(force, reference if reference > 0 else 1.0, _motion(task))
+    return expected, _stated(analysis, task, asked)
 
 
 def smallest_cap(analysis: Analysis, task: TimedTask) -> float:
@@ -67,7 +73,7 @@ def caps(analysis: Analysis, task: TimedTask) -> tuple[float, ...]:
 
 def grips(formulation: Formulation) -> tuple[float, ...]:
     """Return the squeeze [N] that the least friction takes to hold what the task asks; none when that is no more."""
-    least = least_cone_unit(formulation.response.grasp.contacts)
+    least = formulation.response.grasp.least_cone_unit
     return (formulation.load_size / least,) if least < 1.0 else ()
 
 
@@ -85,11 +91,11 @@ def _caps(analysis: Analysis, task: TimedTask) -> list[float]:
     return [size for size in found if 0 < size < np.inf]
 
 
-def _load(analysis: Analysis, task: TimedTask) -> float:
-    """Return the largest contact force that the load causes by itself [N], moments over the length."""
+def _asked(analysis: Analysis, task: TimedTask) -> float:
+    """Return the largest contact force that the load causes by itself, or the margin [N]; moments over the length."""
     response = analysis.response
-    change = (task.wrench - analysis.grasp.w_0) @ response.right_inverse.T
-    return response.scale.largest_force(forces_at_start(response) - change)
+    change = (task.wrench - analysis.grasp.w_0) @ response.dlambda_dw.T
+    return max(response.scale.largest_force(forces_at_start(response) + change), task.margin)
 
 
 def _of_motion(analysis: Analysis, task: TimedTask, target: Array) -> float:

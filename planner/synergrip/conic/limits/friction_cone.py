@@ -10,9 +10,8 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.usage import alike
 from synergrip.conic.rows import Item, Kind, Rows
-from synergrip.grasps.contacts.contact import Contact
-from synergrip.grasps.friction_cones import cone_unit
 from synergrip.linalg import Array, frozen, sealed
 from synergrip.statics.motion import Motion, largest_term
 
@@ -49,8 +48,8 @@ class FrictionCone(Limit):
         grasp = formulation.response.grasp
         margins, count = grasp.slip_margins(motion.forces), grasp.n_c
         return Usage(
-            "slip margin", "N", tuple(c.name for c in grasp.contacts), margins,
-            np.full(count, self.margin), np.full(count, np.inf), np.full(count, formulation.load_size), motion.times,
+            "slip margin", "N", grasp.contact_names, margins,
+            alike(count, self.margin), alike(count, np.inf), alike(count, formulation.load_size), motion.times,
             carried(formulation, motion),
         )  # fmt: skip
 
@@ -64,7 +63,7 @@ def carried(formulation: Formulation, motion: Motion) -> Array:
     grasp, response = formulation.response.grasp, formulation.response
     sizes = np.abs(motion.forces * response.scale.force)
     largest = np.maximum.reduceat(sizes, grasp.normal_rows, axis=1)  # from one contact's normal row to the next one's
-    return frozen(np.maximum(largest, max(formulation.load_size, CANCELLED * largest_term(response, motion.dz_r))))
+    return sealed(np.maximum(largest, max(formulation.load_size, CANCELLED * largest_term(response, motion.dz_r))))
 
 
 def friction_rows(formulation: Formulation, margin: float | Array, epigraph: float, key: str) -> list[Rows]:
@@ -81,15 +80,10 @@ def friction_rows(formulation: Formulation, margin: float | Array, epigraph: flo
     result = []
     for cones in grasp.friction_cones:
         kind = Kind.NONNEGATIVE if cones.size == 1 else Kind.SECOND_ORDER
-        value = formulation.force.after(cones.in_units / unit)
+        value = formulation.force.mapped(cones.in_units / unit)
         each = asked if not asked.ndim else np.repeat(asked[:, cones.contacts], cones.size, axis=1)
         constant = value.constant - cones.heads * each
         items = tuple(Item(*name) for name in cones.names)
         scalar = frozen(epigraph * cones.heads)
         result.append(Rows(key, kind, cones.size, items, value.matrix, sealed(constant), scalar, friction=True))
     return result
-
-
-def least_cone_unit(contacts: Sequence[Contact]) -> float:
-    """Return the smallest of what the cones of contacts are divided by."""
-    return min(cone_unit(cone[0, 0]) for contact in contacts for cone in contact.cones)

@@ -9,12 +9,13 @@ from typing import Annotated, Any, Self
 import numpy as np
 
 from synergrip.conic.arguments import size
-from synergrip.conic.bounds import within_bounds
+from synergrip.conic.bounds import one_bound
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import carried
 from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.usage import alike
 from synergrip.conic.rows import Rows
 from synergrip.documents.fields import Written, array_of, listed, unit_schema, with_unit
 from synergrip.documents.judging import described, is_number
@@ -89,12 +90,11 @@ class NormalForce(Limit):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds per contact, in `bound_unit`; that contacts push, friction cones say already."""
-        value = formulation.force.taken(formulation.response.grasp.normal_rows)
-        names = _names(formulation)
-        none, ones = np.full(len(names), np.inf), np.ones(len(names))
-        low, high = (bound_unit(bound, formulation.force_unit) * ones for bound in (self.lower, self.upper))
-        lower = within_bounds(self.key, names, value, self.lower * ones, none, low) if self.lower > 0 else []
-        return [*lower, *within_bounds(self.key, names, value, -none, self.upper * ones, high)]
+        grasp, unit = formulation.response.grasp, formulation.force_unit
+        value, names = formulation.force.taken(grasp.normal_rows), grasp.contact_names
+        bounds = [("lowest", self.lower)] if self.lower > 0 else []
+        bounds += [("highest", self.upper)] if self.upper < np.inf else []
+        return [one_bound(self.key, names, value, bound, bound_unit(bound, unit), side) for side, bound in bounds]
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return the whole forces, which a largest normal force bounds through the cones; nothing without them."""
@@ -117,8 +117,8 @@ class NormalForce(Limit):
         starts = formulation.response.grasp.normal_rows
         count = len(starts)
         return Usage(
-            "normal force", "N", _names(formulation), motion.forces[:, starts],
-            np.full(count, self.lower), np.full(count, self.upper), np.full(count, formulation.load_size), motion.times,
+            "normal force", "N", formulation.response.grasp.contact_names, motion.forces[:, starts],
+            alike(count, self.lower), alike(count, self.upper), alike(count, formulation.load_size), motion.times,
             carried(formulation, motion),
         )  # fmt: skip
 
@@ -145,10 +145,6 @@ def normal_selection(formulation: Formulation) -> Array:
     """Return (n_c, n_l): the normal component of each contact."""
     grasp = formulation.response.grasp
     return np.eye(grasp.n_l)[grasp.normal_rows]
-
-
-def _names(formulation: Formulation) -> tuple[str, ...]:
-    return tuple(contact.name for contact in formulation.response.grasp.contacts)
 
 
 def _written(lower: float, upper: float) -> str:

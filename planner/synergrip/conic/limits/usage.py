@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -10,8 +11,14 @@ from synergrip.conic.limits.ties import BROKEN, ROUNDING, first_largest, first_w
 from synergrip.documents.judging import Arguments, are_floats, are_texts, as_numbers, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import shortened
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, sealed
 from synergrip.values import Value
+
+
+@lru_cache(maxsize=256)
+def alike(count: int, value: float) -> Array:
+    """Return (count,) numbers that are all the same, read-only."""
+    return sealed(np.full(count, value))
 
 
 @naming_arguments

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy import sparse
@@ -82,7 +83,7 @@ class _Posed:
     P: sparse.csr_matrix
     q: Array
     b: Array
-    bounds: Array
+    program: Program
     constant: float
     columns: Columns
     cones: Cones
@@ -97,8 +98,13 @@ class _Posed:
         matrix = Matrix.of(P, columns, [Sheet.of(A, columns, family) for family in cones.families])
         return cls(
             P, program.q[columns.order], program.b[cones.order],
-            program.variable_bounds[columns.order], program.constant, columns, cones, matrix, abs(P),
+            program, program.constant, columns, cones, matrix, abs(P),
         )  # fmt: skip
+
+    @cached_property
+    def bounds(self) -> Array:
+        """(n,) the program's bounds on its unknowns."""
+        return self.program.variable_bounds[self.columns.order]
 
     def times(self, x: Array) -> Array:
         """Return A x."""

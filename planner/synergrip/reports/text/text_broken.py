@@ -57,7 +57,7 @@ def broken(judgement: Judgement) -> Iterator[str]:
 
 def not_holding(judgement: Judgement) -> Iterator[str]:
     """Yield which contacts would come off or slip, as the figures are those of contacts that do neither."""
-    times, names = judgement.motion.times, tuple(each.name for each in judgement.analysis.grasp.contacts)
+    times, names = judgement.motion.times, judgement.analysis.grasp.contact_names
     forces = judgement.motion.forces
     least = PULLED * float(np.abs(forces).max(initial=0.0))
     ends = []

@@ -91,7 +91,7 @@ def error_rows(motion: Motion, task: TimedTask, analysis: Analysis) -> list[tupl
 
 def _largest_normal(grasp: Grasp, motion: Motion) -> tuple[str, ...]:
     normal = motion.forces[:, grasp.normal_rows]
-    names = tuple(contact.name for contact in grasp.contacts)
+    names = grasp.contact_names
     return _largest("largest normal force", normal, dict.fromkeys(names, "N"), names, motion.times)
 
 
