@@ -21,6 +21,13 @@ class Kept:
 
     __array_ufunc__ = None
 
+    @classmethod
+    def of_known(cls, **values: object) -> Self:
+        """Return a value of fields that are known to fit each other, which nobody judges: all that have no default."""
+        made = object.__new__(cls)
+        made.__dict__.update(values)
+        return made
+
     def with_judged(self, **values: object) -> Self:
         """Return the same value with others in some fields, which nobody needs to judge."""
         made, own = object.__new__(type(self)), self.__dict__

@@ -95,12 +95,11 @@ def _of_one_knot(bands: Sequence[Band], n_v: int, extra: int) -> sparse.csc_matr
         whole[rows, :n_v] = band.matrix if band.matrix.ndim == 2 else band.matrix[0]
         if extra:
             whole[rows, n_v] = band.scalar
-    if not any(band.exact for band in bands):
-        whole[:, :n_v] = without_rounding(whole[:, :n_v])
-    filled = whole.T != 0
-    ends = np.zeros(n_v + extra + 1, dtype=np.int32)
-    np.cumsum(filled.sum(axis=1), out=ends[1:])
-    return sparse.csc_matrix((whole.T[filled], np.nonzero(filled)[1].astype(np.int32), ends), shape=whole.shape)
+    size = np.abs(whole)
+    rounding = 0.0 if any(band.exact for band in bands) else ROUNDING * _largest_of_rows(size[:, :n_v])
+    column, row = np.nonzero((size > rounding).T)
+    ends = np.searchsorted(column, np.arange(n_v + extra + 1)).astype(np.int32)
+    return sparse.csc_matrix((whole[row, column], row.astype(np.int32), ends), shape=whole.shape)
 
 
 def _parts(band: Band, top: int, knots: int) -> list[_Part]:
@@ -120,7 +119,11 @@ def _parts(band: Band, top: int, knots: int) -> list[_Part]:
 def without_rounding(matrix: Array) -> Array:
     """Return the matrix with 0 where an entry is rounding beside the largest of its row."""
     size = np.abs(matrix)
-    return np.where(size > ROUNDING * size.max(axis=-1, keepdims=True, initial=0.0), matrix, 0.0)
+    return np.where(size > ROUNDING * _largest_of_rows(size), matrix, 0.0)
+
+
+def _largest_of_rows(size: Array) -> Array:
+    return np.asarray(size.max(axis=-1, keepdims=True, initial=0.0))
 
 
 def _scalar_column(band: Band, top: int) -> tuple[NDArray[np.intp], Array]:

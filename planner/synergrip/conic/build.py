@@ -20,7 +20,7 @@ from synergrip.conic.program import Block, Program
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
 from synergrip.conic.variable_bounds import farthest, variable_bounds
-from synergrip.linalg import Array, frozen, gram
+from synergrip.linalg import Array, frozen, gram, sealed
 from synergrip.values import Value
 
 
@@ -71,7 +71,7 @@ def _constraints(formulation: Formulation, limits: Sequence[Limit], goal: Goal, 
     A = in_basis(_matrix(rows, T, formulation.n_v, extra), formulation.free_basis, extra)
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     b = np.concatenate([np.zeros(0), *(_constants(part) for part in rows)])
-    return Constraints(A, frozen(b), tuple(_block(part, T) for part in rows))
+    return Constraints(A, sealed(b), tuple(_block(part, T) for part in rows))
 
 
 def _constant(cost: Objective) -> float:

@@ -128,12 +128,15 @@ class Rows(Value):
         if self.matrix.ndim < 2 or not self.constant.ndim or not self.epigraph.ndim:
             return False
         heights = {self.matrix.shape[-2], self.constant.shape[-1], self.epigraph.shape[-1]}
-        return heights == {len(self.items) * self.dim} and all(type(item) is Item for item in self.items)
+        return heights == {len(self.items) * self.dim} and {Item}.issuperset(map(type, self.items))
 
 
 def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:
     """Return rows ``value >= 0``, with what earlier knots add to the value."""
-    return Rows(limit, Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, sealed(np.zeros(len(items))), earlier)
+    return Rows.of_known(
+        limit=limit, kind=Kind.NONNEGATIVE, dim=1, items=items, matrix=value.matrix, constant=value.constant,
+        epigraph=sealed(np.zeros(len(items))), earlier=earlier,
+    )  # fmt: skip
 
 
 @naming_arguments

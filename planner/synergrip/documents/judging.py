@@ -223,7 +223,7 @@ def are_floats(values: Iterable[object]) -> bool:
 
 def are_texts(values: Iterable[object]) -> bool:
     """Return whether all are texts."""
-    return all(type(each) is str for each in values)
+    return {str}.issuperset(map(type, values))
 
 
 def as_numbers(value: object) -> Array | None:

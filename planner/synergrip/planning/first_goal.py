@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from synergrip.conic.conflicts import Conflict, beside_friction, conflicts
@@ -56,12 +56,15 @@ class Planner:
         return verified_plan(self.task, self.analysis, last, stage.largest_margin)
 
     def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Answered:
-        # how hard to squeeze for the largest margin, only what bounds it can tell; for the load, the friction
-        sizes = caps(self.analysis, self.task) if isinstance(goal, LargestMargin) else ()
-        sizes = (*grips(self.formulation), *sizes)
-        answered = ask(Question(self.formulation, limits, goal), self.solver, sizes)
+        answered = ask(Question(self.formulation, limits, goal), self.solver, self._sizes(goal))
         self.decisions.append(answered.decision)
         return answered
+
+    def _sizes(self, goal: Goal) -> Iterator[float]:
+        """Yield forces [N]: what the friction takes for the load; for the largest margin, what bounds it."""
+        yield from grips(self.formulation)
+        if isinstance(goal, LargestMargin):
+            yield from caps(self.analysis, self.task)
 
     def _without_optimum(self, decision: Decision, goal: Goal) -> Outcome:
         """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""

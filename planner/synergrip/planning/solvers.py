@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 
@@ -172,7 +172,7 @@ class Answered(Value):
         return not self.settled, *rank(decision)
 
 
-def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> Answered:
+def ask(question: Question, solver: Answerer, sizes: Iterable[float] = ()) -> Answered:
     """Build the program of a question, have it solved and verified; asked again in other units when that is needed.
 
     Args:
@@ -182,6 +182,8 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
     """
     question = weighed(question)
     best = found = _decided(question, solver)
+    if best.settled:
+        return best
     tried, left = [best], list(sizes)
     for _ in range(AGAIN + len(left)):
         if best.settled or best.hidden:
@@ -200,10 +202,8 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
 def _decided(question: Question, solver: Answerer) -> Answered:
     program = question.program()
     attempts = ALONG if question.formulation.along_path else ATTEMPTS
-    decision = decide(
-        question.goal.name, program, lambda *asked: solver(question, *asked), question.violation, attempts
-    )  # fmt: skip
-    return Answered(question, decision)
+    name, tight = question.goal.name, question.violation
+    return Answered(question, decide(name, program, lambda *asked: solver(question, *asked), tight, attempts))
 
 
 def _in_its_units(found: Answered) -> Question | None:

@@ -12,7 +12,7 @@ from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.well_formed import usage_of
 from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError, Issue, SelfCheckError, SynergripError
-from synergrip.linalg import Array, frozen, largest_size, sealed
+from synergrip.linalg import Array, largest_size, sealed
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.planning.between import LIMIT, Between, between
 from synergrip.planning.free import free_notes
@@ -67,7 +67,7 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(
         task, analysis, formulation.whole, motion, sealed(alpha), sealed(beta), sealed(gamma),
-        sealed(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
+        sealed(motion.du - motion.sag - rigid), usages[0].value, usages, checks, stage.decisions, largest,
         (*free_notes(analysis), *accuracy_notes(analysis.response), *undone_notes(analysis, task), *stage.notes,
          *ranges_left(task, analysis.grasp, motion.dq), *_far(analysis, motion), *passed_over(found),
          *analysis.frame_notes), found,

@@ -73,7 +73,7 @@ class Constant:
 
     def at(self, times: Array) -> Array:
         """Return the values (T, m)."""
-        return np.tile(self.values, (len(times), 1))
+        return np.repeat(self.values[None], len(times), axis=0)
 
     @property
     def marks(self) -> Marks:

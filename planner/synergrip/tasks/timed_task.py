@@ -171,7 +171,7 @@ class TimedTask(Value):
         target = replace(self.target, values=frozen(self.target.values[knots]))
         return replace(self, times=frozen(self.times[knots]), wrench=frozen(self.wrench[knots]), target=target)
 
-    @property
+    @cached_property
     def binding(self) -> tuple[Limit, ...]:
         """The limits that are stated, without joint ranges where all of them are let go."""
         return tuple(limit for limit in self.limits if not (isinstance(limit, JointRange) and limit.lets_go))

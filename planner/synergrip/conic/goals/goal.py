@@ -181,7 +181,7 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
     """
     plain = type(value) is Affine and are_floats((value.matrix, value.constant))
     if plain and type(weights) is float and 0 <= weights < np.inf:  # as most are
-        return Squares(sealed(weights * value.matrix), sealed(value.constant * weights))
+        return weighed(value, np.asarray(weights))
     judge = Arguments("squares_of")
     judge.one("value", value, Affine, "formulation.force.after(matrix)")
     each = judge.numbers("weights", weights, "a number, or one for each quantity")
@@ -193,4 +193,9 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
     if np.any(each < 0):
         message = f"expected weights of at least 0, got {float(each.min()):g}: squares can only be made small"
         raise InputError.at("squares_of.weights", message)
-    return Squares(sealed(each[..., None] * value.matrix), sealed(value.constant * each))
+    return weighed(value, each)
+
+
+def weighed(value: Affine, weights: Array) -> Squares:
+    """Return what `squares_of` does for weights (m,) or () that are known to fit."""
+    return Squares(sealed(weights[..., None] * value.matrix), sealed(value.constant * weights))

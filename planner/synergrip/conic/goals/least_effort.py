@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.goals.goal import Goal, Objective, squares_of
+from synergrip.conic.goals.goal import Goal, Objective, squares_of, weighed
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 
@@ -50,7 +50,7 @@ class LeastEffort(Goal):
         """Return the squares, in units of the force unit (times the length for torques)."""
         scale, unit = formulation.response.scale, formulation.force_unit
         if self.of == "contact":
-            return Objective((squares_of(formulation.force, scale.force / unit),))
+            return Objective((weighed(formulation.force, scale.force / unit),))
         value = formulation.torque if self.of == "torque" else formulation.effort
         return Objective((squares_of(value, 1 / (unit * scale.length)),))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import Self
 
 import numpy as np
@@ -12,7 +13,7 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.limits.usage import alike
 from synergrip.conic.rows import Item, Kind, Rows
-from synergrip.linalg import Array, frozen, sealed
+from synergrip.linalg import Array, sealed
 from synergrip.statics.motion import Motion, largest_term
 
 CANCELLED = 1e-9
@@ -47,10 +48,10 @@ class FrictionCone(Limit):
         """Return the slip margins, by the contacts' own formula."""
         grasp = formulation.response.grasp
         margins, count = grasp.slip_margins(motion.forces), grasp.n_c
-        return Usage(
-            "slip margin", "N", grasp.contact_names, margins,
-            alike(count, self.margin), alike(count, np.inf), alike(count, formulation.load_size), motion.times,
-            carried(formulation, motion),
+        return Usage.of_known(
+            title="slip margin", unit="N", items=grasp.contact_names, value=sealed(margins),
+            lower=alike(count, self.margin), upper=alike(count, np.inf), scale=alike(count, formulation.load_size),
+            times=motion.times, allowance=carried(formulation, motion),
         )  # fmt: skip
 
 
@@ -83,7 +84,14 @@ def friction_rows(formulation: Formulation, margin: float | Array, epigraph: flo
         value = formulation.force.mapped(cones.in_units / unit)
         each = asked if not asked.ndim else np.repeat(asked[:, cones.contacts], cones.size, axis=1)
         constant = value.constant - cones.heads * each
-        items = tuple(Item(*name) for name in cones.names)
-        scalar = frozen(epigraph * cones.heads)
-        result.append(Rows(key, kind, cones.size, items, value.matrix, sealed(constant), scalar, friction=True))
+        rows = Rows.of_known(
+            limit=key, kind=kind, dim=cones.size, items=_items(cones.names), matrix=value.matrix,
+            constant=sealed(constant), epigraph=sealed(epigraph * cones.heads), friction=True,
+        )  # fmt: skip
+        result.append(rows)
     return result
+
+
+@lru_cache(maxsize=256)
+def _items(names: tuple[tuple[str, str], ...]) -> tuple[Item, ...]:
+    return tuple(Item(*name) for name in names)

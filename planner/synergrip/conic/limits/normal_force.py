@@ -22,7 +22,7 @@ from synergrip.documents.judging import described, is_number
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array
+from synergrip.linalg import Array, sealed
 from synergrip.statics.motion import Motion
 
 MOST = 1e9
@@ -114,12 +114,12 @@ class NormalForce(Limit):
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the normal forces."""
-        starts = formulation.response.grasp.normal_rows
-        count = len(starts)
-        return Usage(
-            "normal force", "N", formulation.response.grasp.contact_names, motion.forces[:, starts],
-            alike(count, self.lower), alike(count, self.upper), alike(count, formulation.load_size), motion.times,
-            carried(formulation, motion),
+        grasp, count = formulation.response.grasp, formulation.response.grasp.n_c
+        normal = sealed(motion.forces[:, grasp.normal_rows])
+        return Usage.of_known(
+            title="normal force", unit="N", items=grasp.contact_names, value=normal,
+            lower=alike(count, self.lower), upper=alike(count, self.upper), scale=alike(count, formulation.load_size),
+            times=motion.times, allowance=carried(formulation, motion),
         )  # fmt: skip
 
 

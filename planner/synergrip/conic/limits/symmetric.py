@@ -70,15 +70,17 @@ class Symmetric(Limit):
 
     def on(self, grasp: Grasp) -> Self:
         """Return it with one number for each, those of the hand where it is to say."""
-        key, limit = f"{type(self).__name__}.limit", self.limit
+        limit, names = self.limit, self.names(grasp)
+        if type(limit) is np.ndarray and limit.shape == (len(names),):
+            return self
+        key = f"{type(self).__name__}.limit"
         if isinstance(limit, str):
             if grasp.held is None:
                 raise InputError.at(key, NO_HAND)
             limit = frozen(self.of_hand(grasp.held))
             if not np.any(np.isfinite(limit)):
                 raise InputError.at(key, NOT_STATED)
-        each = one_each(key, limit, self.names(grasp), self.of)
-        return self if each is self.limit else self.with_judged(limit=each)
+        return self.with_judged(limit=one_each(key, limit, names, self.of))
 
     def for_synergies(self, origins: Sequence[int | None]) -> Self:
         """Return it with a number for each of other synergies; a new one has what all have, or else none."""
@@ -120,9 +122,9 @@ class Symmetric(Limit):
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the values that the motion reaches."""
         grasp, limit = formulation.response.grasp, self.on(formulation.response.grasp).limit
-        return Usage(
-            self.title, self.unit(grasp), self.names(grasp), self.reached(motion), -limit, limit, _unit(limit),
-            motion.times,
+        return Usage.of_known(
+            title=self.title, unit=self.unit(grasp), items=self.names(grasp), value=self.reached(motion),
+            lower=-limit, upper=limit, scale=_unit(limit), times=motion.times,
         )  # fmt: skip
 
 
