@@ -25,11 +25,11 @@ def main() -> None:
         from synergrip.cli.streams import PrintError, guard
 
         guard()
-        from synergrip.cli.app import app
+        from synergrip.cli.app import app_for
 
         try:
             try:
-                app()
+                app_for(sys.argv[1:])()
             except SystemExit as left:
                 sys.stdout.flush()
                 ending.end(left.code)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import typer
@@ -34,18 +35,7 @@ class _Documented(TyperGroup):
         (formatter.write if formatter.getvalue() else typer.echo)(f" Documentation: {bundled('README.md')}")
 
 
-app = typer.Typer(
-    name="synergrip",
-    cls=_Documented,
-    help="Plans grasp forces and in-hand motion for robot hands driven by postural synergies, and proves its answers.",
-    epilog="Exit codes: 0 feasible and verified, 1 proven infeasible, 2 bad input, 3 unknown, 4 own check failed, "
-    "5 the answer could not be printed or written, 130 interrupted.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-for verb in (
+VERBS = (
     plan,
     report,
     view,
@@ -62,9 +52,7 @@ for verb in (
     hands,
     schema,
     docs,
-):
-    app.command()(verb)
-app.add_typer(synergies, name="synergies")
+)
 
 
 def _version(asked: bool) -> None:
@@ -73,8 +61,36 @@ def _version(asked: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def options(
     version: bool = typer.Option(False, "--version", callback=_version, is_eager=True, help="Print the version."),
 ) -> None:
     """Plans grasp forces and in-hand motion for robot hands driven by postural synergies, and proves its answers."""
+
+
+def _app(verbs: Iterable[Callable[..., None]], groups: Mapping[str, typer.Typer]) -> typer.Typer:
+    made = typer.Typer(
+        name="synergrip",
+        cls=_Documented,
+        help="Plans grasp forces and in-hand motion for robot hands driven by postural synergies, and proves its "
+        "answers.",
+        epilog="Exit codes: 0 feasible and verified, 1 proven infeasible, 2 bad input, 3 unknown, 4 own check failed, "
+        "5 the answer could not be printed or written, 130 interrupted.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    made.callback()(options)
+    for verb in verbs:
+        made.command()(verb)
+    for name, group in groups.items():
+        made.add_typer(group, name=name)
+    return made
+
+
+app = _app(VERBS, {"synergies": synergies})
+
+
+def app_for(words: Sequence[str]) -> typer.Typer:
+    """Return the command line as far as some words need it: what they do not ask for need not be got ready."""
+    return next((_app((verb,), {}) for verb in VERBS if words[:1] == [verb.__name__]), app)

@@ -11,8 +11,6 @@ import numpy as np
 from synergrip.documents.judging import Arguments, described
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.asked_hand import Posture, Synergies, asked_hand
-from synergrip.grasps.closing import close as closed
-from synergrip.grasps.closing import unknown_surface
 from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
@@ -57,6 +55,8 @@ def grasp_of(asked: AskedGrasp) -> Grasp:
     """
     hand, q, touches = asked.hand, asked.q, asked.touches
     if asked.closing is not None:
+        from synergrip.grasps.closing import close as closed  # hands in a given posture do without
+
         q = closed(hand, q, asked.closing, asked.body, touches)
     try:
         placed = place(asked.title, hand, asked.synergies, q, asked.body, touches, asked.C_q, asked.C_z)
@@ -103,6 +103,8 @@ def asked_grasp(
         raise InputError(judge.issues)
     touches, issues = _touches(hand, wanted, body)
     if close is not None:
+        from synergrip.grasps.closing import unknown_surface
+
         issues += [each for each in unknown_surface(body) if not (anywhere and each.key == "object.position")]
     links = [touch.pad.link for touch in touches]
     try:

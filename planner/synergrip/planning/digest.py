@@ -8,7 +8,7 @@ again without planning.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -50,31 +50,31 @@ def stated_digest(document: Mapping[str, Any]) -> str | None:
 def digest(document: Mapping[str, Any], keys: Sequence[str]) -> str:
     """Return the SHA-256 of the values of some keys, numbers by their 64 bits."""
     found = hashlib.sha256()
-    for part in _parts({key: document[key] for key in keys}):
-        found.update(part)
+    _feed({key: document[key] for key in keys}, found.update)
     return found.hexdigest()
 
 
-def _parts(value: Any) -> Iterator[bytes]:
+def _feed(value: Any, take: Callable[[bytes], object]) -> None:
+    """Hand over the bytes of a value, part by part."""
     if isinstance(value, Mapping):
         for key in sorted(value):
             if key not in UNCERTAIN:
-                yield f"{key}:".encode("utf-8", "surrogatepass")
-                yield from _parts(value[key])
+                take(f"{key}:".encode("utf-8", "surrogatepass"))
+                _feed(value[key], take)
     elif isinstance(value, np.ndarray) and value.dtype.kind == "f":
-        yield f"{value.shape}".encode() + value.astype("<f8").tobytes()
+        take(f"{value.shape}".encode() + value.astype("<f8").tobytes())
     elif isinstance(value, list | tuple | np.ndarray):
-        yield from _parts_of_list(list(value))
+        _feed_list(list(value), take)
     elif isinstance(value, int | float) and not isinstance(value, bool):
-        yield np.array(value, dtype="<f8").tobytes()
+        take(np.array(value, dtype="<f8").tobytes())
     else:
-        yield f"{value};".encode("utf-8", "surrogatepass")
+        take(f"{value};".encode("utf-8", "surrogatepass"))
 
 
-def _parts_of_list(values: list[Any]) -> Iterator[bytes]:
+def _feed_list(values: list[Any], take: Callable[[bytes], object]) -> None:
     if values and all(isinstance(each, float) for each in values):
-        yield np.array(values, dtype="<f8").tobytes()
+        take(np.array(values, dtype="<f8").tobytes())
         return
     for each in values:
-        yield from _parts(each)
-        yield b","
+        _feed(each, take)
+        take(b",")
