@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from small_hands import hand_of, hinge, pad, slide, touching
 
-from synergrip.grasps.clearance import collision_notes, depth
+from synergrip.grasps.clearance import at_most, collision_notes, depth
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.linalg import frozen
 from synergrip.problems.problem import load_problem
@@ -32,6 +32,14 @@ def test_no_point_of_a_line_is_deeper_and_one_is_as_deep(shape: Shape) -> None:
         along = [-shape.surface(a + share * (b - a))[0] for share in np.linspace(0, 1, 401)]
         assert max(along) <= depth(shape, a, b) + 1e-12
         assert max(along) == pytest.approx(depth(shape, a, b), abs=np.linalg.norm(b - a) / 800)
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.title)
+def test_no_line_is_deeper_than_its_ends_allow_and_some_are_seen_to_be_outside(shape: Shape) -> None:
+    ends = np.random.default_rng(3).uniform(-0.08, 0.08, (200, 2, 3))
+    exact, most = np.array([depth(shape, a, b) for a, b in ends]), at_most(shape, ends)
+    assert (exact <= most + 1e-12).all()
+    assert (most < 0).any()
 
 
 def test_a_line_of_no_length_is_as_deep_as_its_point() -> None:

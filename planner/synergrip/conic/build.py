@@ -129,16 +129,22 @@ def _rows(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> list
 
     What is asked for in other cases than the one stated is not asked of references, which are the same in all.
     """
+    parts: tuple[Limit | Goal, ...] = (*limits, goal)
+    if formulation.allowed is None and formulation.intersample is None:
+        return _in_order([rows for part in parts for rows in part.rows(formulation)])
     stated, rows = _Instants.of(formulation), list[Rows]()
     cases, offs = ([], []) if formulation.allowed is None else formulation.allowed.formulations(formulation)
     in_cases, in_offs = ([_Instants.of(each) for each in parts] for parts in (cases, offs))
-    parts: tuple[Limit | Goal, ...] = (*limits, goal)
     for part in parts:
         alone = isinstance(part, Limit) and part.of_references_alone
         if alone or not in_cases:
             rows += stated.rows(part)
         else:
             rows += in_all_cases([each.rows(part) for each in in_cases], [each.rows(part) for each in in_offs])
+    return _in_order(rows)
+
+
+def _in_order(rows: list[Rows]) -> list[Rows]:
     return sorted(rows, key=lambda part: part.inside is not None)
 
 

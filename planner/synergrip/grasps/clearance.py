@@ -59,9 +59,8 @@ def collision_notes(hand: Hand, q: Array, body: Object, touches: Sequence[Touch]
     lines = list(_skeleton(hand, touches))
     motions = hand.kinematics.at(q, [(end.link, end.point) for line in lines for end in line])
     points = np.array([motion.position - body.position for motion in motions]).reshape(-1, 2, 3)
-    # a distance changes by no more than the way along the line: most lines are seen by their ends to stay outside
-    most = (np.linalg.norm(points[:, 1] - points[:, 0], axis=1) - body.shape.surface(points)[0].sum(axis=1)) / 2
-    near = [(*line, depth(body.shape, *ends)) for line, ends, m in zip(lines, points, most, strict=True) if m > DEEP]
+    every = zip(lines, points, at_most(body.shape, points), strict=True)
+    near = [(*line, depth(body.shape, *ends)) for line, ends, most in every if most > DEEP]
     inside = ", ".join(f"from {a.name} to {b.name} ({in_mm(deep, 2)} deep)" for a, b, deep in near if deep > DEEP)
     message = f"the hand may collide with the {body.shape.title}: its skeleton runs inside on the line {inside}"
     return (message,) if inside else ()
@@ -73,6 +72,14 @@ def depth(shape: Shape, start: Array, end: Array) -> float:
     The signed distance to a convex body is convex along a line, so that its smallest value is found exactly.
     """
     return -lowest(lambda share: float(shape.surface(start + share * (end - start))[0]), 0.0, 1.0)[1]
+
+
+def at_most(shape: Shape, ends: Array) -> Array:
+    """Return how deep [m] lines between points (N, 2, 3) run inside a shape at most (N,), as their ends tell.
+
+    The distance changes by no more than the way along the line; most lines of a hand are seen so to stay outside.
+    """
+    return np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - shape.surface(ends)[0].sum(axis=1)) / 2
 
 
 def deepest(hand: Hand, q: Array, shape: Shape, positions: Array, touches: Sequence[Touch]) -> Array:

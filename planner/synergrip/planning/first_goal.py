@@ -24,7 +24,8 @@ from synergrip.planning.verified import verified_plan
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.goals import unasked_goals
 from synergrip.tasks.scaling import caps, grips
-from synergrip.tasks.timed_task import TimedTask, unbounded
+from synergrip.tasks.timed_task import TimedTask
+from synergrip.tasks.unbounded import unbounded
 
 NEAR = 1e-5
 """Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""

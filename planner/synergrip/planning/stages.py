@@ -19,7 +19,7 @@ from synergrip.conic.question import Question
 from synergrip.linalg import Array
 from synergrip.log import LOG
 from synergrip.planning.solvers import Answered, Answerer, ask
-from synergrip.tasks.timed_task import unbounded
+from synergrip.tasks.unbounded import unbounded
 from synergrip.values import Value
 
 SLACKS = (1e-8, 1e-7)

@@ -34,8 +34,9 @@ from synergrip.problems.problem_values import document_of
 from synergrip.statics.unbalanced_springs import unbalanced_notes
 from synergrip.tasks.plausible import task_doubts
 from synergrip.tasks.task import Task
-from synergrip.tasks.timed_task import MAXIMISED, TimedTask
+from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start, happening
+from synergrip.tasks.unbounded import MAXIMISED
 from synergrip.values import Value
 
 if TYPE_CHECKING:

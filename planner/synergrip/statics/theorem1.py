@@ -43,6 +43,13 @@ class Coordinates(Value):
         """(..., n_z) the lengths of the rows of M."""
         return np.asarray(np.linalg.norm(self.M, axis=-1))
 
+    @cached_property
+    def reach(self) -> tuple[Array, Array]:
+        """How large (..., n_z) each reference is at most for forces up to 1 N; (..., n_z, dim Gamma_ucs) for beta."""
+        forces, motions, _ = self.dimensions
+        size = np.abs(self.inverse)
+        return size[..., :forces].sum(axis=-1), size[..., forces : forces + motions]
+
     def references(self, alpha: Array, beta: Array, gamma: Array) -> Array:
         """Return dz_r (..., n_z) for alpha (..., dim E_s), beta (..., dim Gamma_ucs), gamma (..., dim Gamma_zr)."""
         given = {"alpha": alpha, "beta": beta, "gamma": gamma}

@@ -50,13 +50,13 @@ def expected_and_stated(
     force = max(asked, least, _of_motion(analysis, task, target), known)
     if not force > 0:
         force = smallest_cap(analysis, task)
-    n_alpha, n_beta, _ = analysis.coordinates.dimensions
-    inverse = np.abs(analysis.coordinates.inverse)
+    of_forces, of_motions = analysis.coordinates.reach
     moving = np.abs(beta).max(axis=0, initial=0.0)
     if task.tracking == "compliant":
-        moving = np.full(n_beta, np.linalg.norm(analysis.response.scale.twist(target), axis=1).max(initial=0.0))
-    references = force * inverse[:, :n_alpha].sum(axis=1) + inverse[:, n_alpha : n_alpha + n_beta] @ moving
-    reference = float(references.max(initial=0.0))
+        moving = np.full(
+            of_motions.shape[1], np.linalg.norm(analysis.response.scale.twist(target), axis=1).max(initial=0.0)
+        )
+    reference = float((force * of_forces + of_motions @ moving).max(initial=0.0))
     expected = Units(force, reference if reference > 0 else 1.0, _motion(task))
     return expected, _stated(analysis, task, asked)
 

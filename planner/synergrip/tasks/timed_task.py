@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 
 from synergrip.conic.goals.goal import Goal
-from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.documents.judging import described, is_list, is_word
 from synergrip.documents.naming import naming_arguments
-from synergrip.errors import InputError, Issue, one_of, raise_issues
+from synergrip.errors import Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, Places, frozen
 from synergrip.tasks.control import Control
@@ -28,14 +27,6 @@ from synergrip.values import Value
 if TYPE_CHECKING:
     from synergrip.conic.allowed import Allowed
     from synergrip.grasps.grasp import Grasp
-
-BOUNDING = (
-    "normal_force", "joint_torque", "actuator_effort", "sustained_torque", "sustained_effort", "synergy_reference",
-    "joint_range",
-)  # fmt: skip
-"""Limits each of which alone bounds the largest margin, also where squeezing harder always helps."""
-MAXIMISED = "goal.maximise"
-"""The key under which the largest margin is asked for, unless it is one of several goals."""
 
 
 class Course(Protocol):
@@ -120,8 +111,7 @@ class TimedTask(Value):
         if not isinstance(self.target, Target):
             judge.refuse("target", f"expected a Target, got {described(self.target)}; a Task takes Hold(), Move(...)")
             judge.finish()
-        if np.ndim(self.target.values) != 2 or len(self.target.values) != len(times):
-            judge.refuse("target", f"expected a row at each of {len(times)} knots, got {np.shape(self.target.values)}")
+        _judge_rows(judge, self.target, len(times))
         axes = [name for name in (self.axes if is_list(self.axes) else [self.axes]) if not is_word(name, AXES)]
         raise_issues([
             *judge.issues,
@@ -133,10 +123,34 @@ class TimedTask(Value):
         ])  # fmt: skip
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "wrench", wrench)
-        margins = [limit.margin for limit in self.limits if isinstance(limit, SlipMargin)]
-        object.__setattr__(self, "margin", max([float(self.margin), *margins]))
-        object.__setattr__(self, "limits", tuple(each for each in self.limits if not isinstance(each, SlipMargin)))
+        margin, limits = _margin_apart(float(self.margin), self.limits)
+        object.__setattr__(self, "margin", margin)
+        object.__setattr__(self, "limits", limits)
         object.__setattr__(self, "goals", tuple(self.goals))
+
+    @classmethod
+    def of_task(
+        cls,
+        times: Array,
+        wrench: Array,
+        target: Target,
+        limits: Sequence[Limit],
+        goals: tuple[Goal, ...],
+        **others: Any,
+    ) -> TimedTask:
+        """Return a task at its knots, of which is judged only what loads, target, limits and goals made of it.
+
+        Raises:
+            InputError: everything that is wrong with these.
+        """
+        judge = Judge("Task")
+        wrench = wrench_of(judge, wrench, len(times))
+        _judge_rows(judge, target, len(times))
+        raise_issues([*judge.issues, *goal_issues(goals), *limit_issues(limits)])
+        margin, kept = _margin_apart(0.0, limits)
+        return cls.of_known(
+            times=times, wrench=wrench, target=target, margin=margin, limits=kept, goals=goals, **others
+        )  # fmt: skip
 
     @property
     def goal(self) -> Goal:
@@ -204,6 +218,18 @@ class TimedTask(Value):
         return tuple(limits)
 
 
+def _judge_rows(judge: Judge, target: Target, knots: int) -> None:
+    """Note that a target has no row at each knot."""
+    if np.ndim(target.values) != 2 or len(target.values) != knots:
+        judge.refuse("target", f"expected a row at each of {knots} knots, got {np.shape(target.values)}")
+
+
+def _margin_apart(margin: float, limits: Sequence[Limit]) -> tuple[float, tuple[Limit, ...]]:
+    """Return the largest of a margin [N] and those among limits, and the limits without these."""
+    margins = [limit.margin for limit in limits if isinstance(limit, SlipMargin)]
+    return max([margin, *margins]), tuple([each for each in limits if not isinstance(each, SlipMargin)])
+
+
 def on_grasp(
     limits: Sequence[Limit], goals: Sequence[Goal], grasp: Grasp
 ) -> tuple[tuple[Limit, ...], tuple[Goal, ...]]:
@@ -217,15 +243,3 @@ def on_grasp(
 def still(times: Array) -> Target:
     """Return the wish to hold the object."""
     return Target("hold", np.zeros((len(times), 0)))
-
-
-def unbounded(goal: Goal) -> InputError:
-    """Return the error of a goal that nothing bounds."""
-    if not isinstance(goal, LargestMargin):
-        return InputError.at("Task.goals", f"nothing bounds '{goal.name}': give a limit that does")
-    listed = ", ".join(f"limits.{name}" for name in BOUNDING[:-1])
-    message = (
-        f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]} "
-        "(in code such as NormalForce(upper=20.0))"
-    )
-    return InputError.at(MAXIMISED, message)

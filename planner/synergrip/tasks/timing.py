@@ -47,9 +47,9 @@ def timed(task: Task, grasp: Grasp) -> TimedTask:
     if wrench is None:
         wrench = frozen(np.tile(task.load_factor * grasp.w_0, (len(times), 1)))
     limits, goals = on_grasp(task.limits, task.goals, grasp)
-    return TimedTask(
-        times=times, wrench=wrench, target=Target(task.target.kind, profiles.target_at(times), "Task.target"),
-        margin=0.0, limits=limits, goals=goals, tolerance=task.tolerance,
+    return TimedTask.of_task(
+        times, wrench, Target(task.target.kind, profiles.target_at(times), "Task.target"), limits, goals,
+        tolerance=task.tolerance,
         tracking=task.tracking, axes=task.axes, drift=task.drift, course=profiles, between=task.between,
         linearise=task.linearise, control=task.control, allowed=allowed_on(task, grasp, _weight(profiles)),
         tie_break=task.tie_break,
