@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from synergrip.conic.affine import times
+from synergrip.grasps.compliance import joint_compliance, total_compliance
 from synergrip.linalg import Array, frozen
 from synergrip.statics.shifts import of_shifts
 from synergrip.values import Value
@@ -71,8 +72,8 @@ def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
     J, S, G = (map_of(of) for of in (
         lambda at: at.response.grasp.J, lambda at: at.response.grasp.S, lambda at: at.response.grasp.G
     ))  # fmt: skip
-    of_joints = grasp.C_q + S @ grasp.C_z @ S.mT
-    C = grasp.C_s + J @ of_joints @ J.mT
+    of_joints = joint_compliance(grasp.C_q, S, grasp.C_z)
+    C = total_compliance(grasp.C_s, J, of_joints)
     own = np.flatnonzero(gaps > 0)
     shifts = np.zeros((grasp.n_l, len(own)))
     shifts[np.asarray(grasp.normal_rows)[own], range(len(own))] = gaps[own]

@@ -15,6 +15,7 @@ from synergrip.equilibrium.meeting import Model, Several, Sliding, Stuck
 from synergrip.equilibrium.rolling import Rolling
 from synergrip.equilibrium.states import Loads, States
 from synergrip.errors import InputError, one_of
+from synergrip.grasps.compliance import joint_compliance
 from synergrip.grasps.contact_maps import component_places
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp
@@ -69,8 +70,7 @@ class Setting(Value):
     @cached_property
     def compliance(self) -> Array:
         """(n_q, n_q) of the joints with the synergies behind them: C_q + S C_z S'."""
-        grasp = self.grasp
-        return np.asarray(grasp.C_q + grasp.S @ grasp.C_z @ grasp.S.T)
+        return joint_compliance(self.grasp.C_q, self.grasp.S, self.grasp.C_z)
 
     @cached_property
     def components(self) -> Places:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.conic.limits.object_error import axis_weights
+from synergrip.grasps.compliance import joint_compliance, total_compliance
 from synergrip.linalg import Array, frozen
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
@@ -41,7 +42,7 @@ def strayed(walk: Walk, walker: Walker) -> Array:
 def _elastic(each: Each, start: Analysis, change: Array) -> Array:
     """Return displacements (T, 6) of the object that go with changes of the contact forces (T, n_l)."""
     grasp, there = start.grasp, each.grasp
-    softness = grasp.C_s + there.J @ (grasp.C_q + grasp.S @ grasp.C_z @ grasp.S.T) @ there.J.mT
+    softness = total_compliance(grasp.C_s, there.J, joint_compliance(grasp.C_q, grasp.S, grasp.C_z))
     motions = np.concatenate([there.J @ grasp.S, -there.G.mT], axis=2)
     moved = np.linalg.pinv(motions, rcond=1e-12) @ softness @ change[:, :, None]
     return np.asarray(moved[:, grasp.n_z :, 0])

@@ -14,6 +14,7 @@ import numpy as np
 from synergrip.documents.documents import read_document
 from synergrip.errors import InputError, one_of
 from synergrip.files import bundled
+from synergrip.grasps.compliance import joint_compliance
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.shapes.shapes import SHAPES
@@ -141,10 +142,10 @@ def _played(plan: Told, told: Told, folder: Path, whole: bool | None) -> PlayedP
     true = plan.inside("true") if plan.get("true") is not None and whole is not False else None
     shown = (true.inside("margin") if true.get("margin") is not None else None) if true else None
     return PlayedPlan(
-        str(plan.get("title") or "plan"), tree, kinematics(tree, joints), q_0, S, frozen(C_q + S @ C_z @ S.T),
+        str(plan.get("title") or "plan"), tree, kinematics(tree, joints), q_0, S, frozen(joint_compliance(C_q, S, C_z)),
         told.array("tau_0", (n_q,)), tuple(frozen(lambda_0[a:b]) for a, b in pairwise(rows)), pads,
         body.array("position_m", (3,)), _shape(shape, told), None if mass is None else body.positive("mass_kg"),
-        None if body.get("inertia_kg_m2") is None else body.array("inertia_kg_m2", (3, 3)),
+        body.perhaps("inertia_kg_m2", Told.array, (3, 3)),
         times, plan.array("dz_r", (n_t, n_z)), plan.array("lambda", (n_t, len(lambda_0))), plan.array("du", (n_t, 6)),
         plan.inside("margin").array("per_contact_N", (n_t, len(pads))),
         None if shown is None else shown.array("per_contact_N", (n_t, len(pads))),

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from synergrip.errors import InputError, kind_of
 from synergrip.linalg import Array, frozen
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -22,6 +24,10 @@ class Told:
     def get(self, name: str) -> Any:
         """Return a value as it is, or None."""
         return self.values.get(name)
+
+    def perhaps(self, name: str, read: Callable[..., T], *how: Any) -> T | None:
+        """Return a value as `read` takes it, such as `Told.number`; None where there is none."""
+        return None if self.get(name) is None else read(self, name, *how)
 
     def refused(self, name: str, message: str) -> InputError:
         """Return the error at a value."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from synergrip.documents.judging import Arguments, described, expected
 from synergrip.documents.naming import naming_arguments
+from synergrip.grasps.compliance import compliance_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, Scale, scale_of
 from synergrip.grasps.stack import Matrices
@@ -107,8 +108,7 @@ class Response(Maps):
     @cached_property
     def K(self) -> Array:
         """(n_l, n_l) total stiffness C^-1 [N/m]; for sizes: where compliances differ much it holds few digits."""
-        grasp, JS = self.grasp, self.grasp.J @ self.grasp.S
-        C = grasp.C_s + grasp.J @ grasp.C_q @ grasp.J.T + JS @ grasp.C_z @ JS.T
+        C = compliance_of(self.grasp)
         root = np.sqrt(np.diag(C))
         values, vectors = np.linalg.eigh(C / np.outer(root, root))
         return frozen((vectors / np.maximum(values, SINGULAR)) @ vectors.T / np.outer(root, root))

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from synergrip.errors import NotRestrainedError
+from synergrip.grasps.compliance import joint_compliance, total_compliance
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, Scale
 from synergrip.grasps.stack import Matrices
@@ -61,9 +62,8 @@ def supported(matrices: Matrices, metric: Metric, free: Array) -> tuple[Matrices
     if not count:
         return matrices, metric
     J, n_l = metric.scaled_rows(matrices.J), matrices.G.shape[-1]
-    JS = J @ matrices.S
     C_s = metric.scaled_rows(matrices.C_s) / metric.force[..., None, :]
-    total = C_s + J @ matrices.C_q @ J.mT + JS @ matrices.C_z @ JS.mT
+    total = total_compliance(C_s, J, joint_compliance(matrices.C_q, matrices.S, matrices.C_z))
     yields = np.trace(total, axis1=-2, axis2=-1)[..., None, None] / n_l
     leading = matrices.G.shape[:-2]
     beside = np.zeros((*leading, n_l, count))

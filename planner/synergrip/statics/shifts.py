@@ -10,16 +10,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from synergrip.grasps.compliance import compliance_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 
 EVEN = 1e3
 """[N/m] brings lengths and forces of a grasp to one size."""
-
-
-def total_compliance(grasp: Grasp) -> Array:
-    """Return ``C = C_s + J (C_q + S C_z S') J'`` (n_l, n_l) [m/N]."""
-    return grasp.C_s + grasp.J @ (grasp.C_q + grasp.S @ grasp.C_z @ grasp.S.T) @ grasp.J.T
 
 
 def of_shifts(C: Array, G: Array, shifts: Array) -> tuple[Array, Array]:
@@ -45,5 +41,5 @@ def normal_stiffness(grasp: Grasp) -> Array:
 
     That is the stiffness of contact, joints and synergies, with the object free to give way to the other contacts.
     """
-    forces, _ = of_shifts(total_compliance(grasp), grasp.G, np.eye(grasp.n_l))
+    forces, _ = of_shifts(compliance_of(grasp), grasp.G, np.eye(grasp.n_l))
     return frozen(np.diag(forces)[np.asarray(grasp.normal_rows)])

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.documents.quantities import SHOWN_IN, in_mm, plain
+from synergrip.grasps.compliance import compliance_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.unbalanced import way_to_rest
 from synergrip.hands.units import SI_UNITS, torque_unit
 from synergrip.linalg import Array, frozen
-from synergrip.statics.shifts import of_shifts, total_compliance
+from synergrip.statics.shifts import of_shifts
 
 MOST_NAMED = 6
 """Joints that a note names."""
@@ -53,7 +54,7 @@ def unbalanced_springs(grasp: Grasp) -> Unbalanced | None:
     if not way.any():
         return None
     shift = (grasp.J @ way)[:, None]
-    forces, push = (each[:, 0] for each in of_shifts(total_compliance(grasp), grasp.G, shift))
+    forces, push = (each[:, 0] for each in of_shifts(compliance_of(grasp), grasp.G, shift))
     spots = np.array([contact.point for contact in grasp.contacts])
     moved = float(np.linalg.norm(push[:3] + np.cross(push[3:], spots), axis=1).max())
     return Unbalanced(frozen(way), frozen(-held.hand.drives.stiffness @ way), frozen(push), moved, frozen(forces))

@@ -10,6 +10,7 @@ from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.placing import moved_to
 from synergrip.linalg import Array, frozen
+from synergrip.vectors import rotation_matrices
 
 SAME = 1e-9
 """How far J may be from that of the posture, relative to its largest entry: beyond it somebody has set it."""
@@ -50,9 +51,7 @@ def turned(grasp: Grasp, index: int, by: Array) -> Grasp:
 
     Of a grasp given as matrices the contact has force components n, t, o only.
     """
-    from scipy.spatial.transform import Rotation
-
-    contact, own = grasp.contacts[index], np.asarray(Rotation.from_rotvec(by).as_matrix())  # in the contact's axes
+    contact, own = grasp.contacts[index], rotation_matrices(by)  # in the contact's axes
     new = replace(contact, frame=frozen(contact.frame @ own))
     if grasp.held is not None:
         return _with(grasp, index, new)

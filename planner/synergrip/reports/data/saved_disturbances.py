@@ -38,13 +38,9 @@ def quality_of(told: Told) -> WrenchSpaceQuality:
         epsilon_pyramids=_pair(told, "epsilon_pyramids"), volume=_pair(told, "volume"),
         volume_synergies=_pair(told, "volume_synergies"), singular_values=told.array("singular_values", (None,)),
         singular_values_synergies=told.array("singular_values_synergies", (None,)), edges=int(told.number("edges")),
-        length=told.number("length_m"), epsilon_each=_perhaps(told, "epsilon_each"),
-        epsilon_each_synergies=_perhaps(told, "epsilon_each_synergies"), why=told.text("why"),
+        length=told.number("length_m"), epsilon_each=told.perhaps("epsilon_each", _pair),
+        epsilon_each_synergies=told.perhaps("epsilon_each_synergies", _pair), why=told.text("why"),
     )  # fmt: skip
-
-
-def _perhaps(told: Told, name: str) -> tuple[float, float] | None:
-    return None if told.get(name) is None else _pair(told, name)
 
 
 def _pair(told: Told, name: str) -> tuple[float, float]:
@@ -60,15 +56,14 @@ def _along(told: Told, name: str) -> WithstoodAlong:
 def _withstood(told: Told) -> Withstood:
     return Withstood(
         np.inf if told.get("lower") is None else told.number("lower"),
-        None if told.get("upper") is None else told.number("upper"), told.text("limit"), told.text("item"),
-        None if told.get("time_s") is None else told.number("time_s"),
-        None if told.get("wrench") is None else told.array("wrench", (6,)), told.get("proven") is True,
+        told.perhaps("upper", Told.number), told.text("limit"), told.text("item"), told.perhaps("time_s", Told.number),
+        told.perhaps("wrench", Told.array, (6,)), told.get("proven") is True,
     )  # fmt: skip
 
 
 def _executed(told: Told) -> ExecutedWrench:
     return ExecutedWrench(
         told.array("wrench", (6,)), told.number("share"),
-        None if told.get("margin_N") is None else told.number("margin_N"), told.text("contact"),
-        None if told.get("time_s") is None else told.number("time_s"), told.get("holds") is True, told.text("why"),
+        told.perhaps("margin_N", Told.number), told.text("contact"),
+        told.perhaps("time_s", Told.number), told.get("holds") is True, told.text("why"),
     )  # fmt: skip

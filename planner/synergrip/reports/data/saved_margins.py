@@ -118,7 +118,7 @@ def _numbers(told: Told, names: tuple[str, ...] | None = None) -> dict[str, Dire
 def _number(name: str, told: Told) -> DirectNumber:
     if told.get("value") is None:
         return DirectNumber.none(name, "", told.text("why"))
-    value, lower, upper = told.number("value"), _perhaps(told, "lower"), _perhaps(told, "upper")
+    value, lower, upper = told.number("value"), told.perhaps("lower", Told.number), told.perhaps("upper", Told.number)
     moved = None if told.get("displacement") is None else tuple(told.array("displacement", (6,)).tolist())
     return DirectNumber(
         name, told.text("unit"), value, lower, upper, told.get("proven") is True, told.text("why"), told.text("set"),
@@ -130,16 +130,16 @@ def _sensitivities(told: Told) -> Sensitivities:
     margins, left_out = told.inside("sensitivities_of"), told.inside("sensitivities_left_out")
     rows = told.several("sensitivities") if told.get("sensitivities") else []
     return Sensitivities(
-        {kind: _perhaps(margins, kind) for kind in KINDS}, tuple(_sensitivity(each) for each in rows),
+        {kind: margins.perhaps(kind, Told.number) for kind in KINDS}, tuple(_sensitivity(each) for each in rows),
         {name: left_out.text(name) for name in left_out.values}, told.get("interrupted") is True,
     )  # fmt: skip
 
 
 def _sensitivity(told: Told) -> Sensitivity:
     texts = {name: told.text(name) for name in ("kind", "model", "name", "of", "direction", "per", "why", "unit")}
-    left, right = _perhaps(told, "left"), _perhaps(told, "right")
+    left, right = told.perhaps("left", Told.number), told.perhaps("right", Told.number)
     return Sensitivity(
-        **texts, at=_perhaps(told, "at"), step=1.0, left=left, right=right,
+        **texts, at=told.perhaps("at", Told.number), step=1.0, left=left, right=right,
         differentiable=told.get("differentiable") is True,
     )  # fmt: skip
 
@@ -147,11 +147,7 @@ def _sensitivity(told: Told) -> Sensitivity:
 def _timing(told: Told) -> FastestTiming:
     given = 0.0 if told.get("value") is None else told.number("given_s")
     return FastestTiming(
-        _perhaps(told, "value"), _perhaps(told, "lower"), _perhaps(told, "upper"), told.get("proven") is True,
+        told.perhaps("value", Told.number), told.perhaps("lower", Told.number), told.perhaps("upper", Told.number),
+        told.get("proven") is True,
         told.get("local") is True, given, told.text("why"),
     )  # fmt: skip
-
-
-def _perhaps(told: Told, name: str) -> float | None:
-    """Return a number, or None where the document has none."""
-    return None if told.get(name) is None else told.number(name)

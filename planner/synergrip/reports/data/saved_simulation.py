@@ -42,8 +42,8 @@ def simulation_of(document: Mapping[str, Any], plan: Mapping[str, Any]) -> Simul
     names, joints = tuple(told.texts("contacts")), tuple(told.texts("joints"))
     time, knots, n_c = told.array("time_s", (None,)), of_plan.array("time_s", (None,)), len(names)
     margin, promised, differs = (told.inside(name) for name in ("margin", "promised", "differs"))
-    true = None if told.get("true") is None else told.inside("true")
-    half = None if told.get("half_step") is None else told.inside("half_step")
+    true = told.perhaps("true", Told.inside)
+    half = told.perhaps("half_step", Told.inside)
     series = (len(time), n_c)
     return Simulation(
         title=told.text("title"), contacts=names, joints=joints, speed=told.text("speed"), step=told.number("step_s"),
@@ -59,10 +59,10 @@ def simulation_of(document: Mapping[str, Any], plan: Mapping[str, Any]) -> Simul
         true_worst=None if true is None else true.number("worst_N"),
         half_step=None if half is None else (_or_nan(half, "margin_N"), _or_nan(half, "shift_m")),
         within=differs.number("more_than_N"), differences=_differences(differs),
-        likely_cause=_perhaps(differs, "likely_cause"), notes=tuple(told.texts("notes")), model="",
+        likely_cause=differs.perhaps("likely_cause", Told.text), notes=tuple(told.texts("notes")), model="",
         as_written=told.get("as_written"), lost_at=_with_gaps(told, "lost_at_s", (n_c,)),
         slipped_at=_with_gaps(told, "slipped_at_s", (n_c,)),
-        ended=None if told.get("ended_at_s") is None else told.number("ended_at_s"), knots=knots,
+        ended=told.perhaps("ended_at_s", Told.number), knots=knots,
         knots_promised=(
             of_plan.inside("margin").array("per_contact_N", (len(knots), n_c)), of_plan.array("du", (len(knots), 6))
         ),
@@ -73,10 +73,6 @@ def simulation_of(document: Mapping[str, Any], plan: Mapping[str, Any]) -> Simul
 def _differences(differs: Told) -> tuple[Difference, ...]:
     found = differs.several("contacts") if differs.get("contacts") else ()
     return tuple(Difference(each.text("contact"), each.number("played_N"), each.number("promised_N")) for each in found)
-
-
-def _perhaps(told: Told, name: str) -> str | None:
-    return None if told.get(name) is None else told.text(name)
 
 
 def _or_nan(told: Told, name: str) -> float:

@@ -21,6 +21,7 @@ from synergrip.reports.pictures.bones import bone_ends, bones_between
 from synergrip.reports.view.scene import Scene, thickness_of
 from synergrip.simulation.played_plan import hand_tree
 from synergrip.simulation.told_values import Told
+from synergrip.vectors import rotation_matrices
 
 MOST = 400
 """Frames that are shown at most: with more knots, some are left out, evenly."""
@@ -51,7 +52,8 @@ def scene_of(document: Mapping[str, Any], folder: Path = Path()) -> Scene:
         thickness=thickness_of(bones[0], radii), link_names=tree.links, links=places[:, : len(tree.links)],
         turned=turned_links, pad_names=tuple(pad.text("name") for pad in pads), pads=places[:, len(tree.links) :],
         pushing=states.normals[shown], radii=radii, shape=shape,
-        position=told.inside("object").array("position_m", (3,)) + du[:, :3], rotation=_turns(du[:, 3:]) @ turned,
+        position=told.inside("object").array("position_m", (3,)) + du[:, :3],
+        rotation=rotation_matrices(du[:, 3:]) @ turned,
         contacts=tuple(pad.text("name") for pad in pads), places=states.places[shown], normals=states.normals[shown],
         forces=states.forces[shown], friction=np.array([_friction(pad) for pad in pads]), up=_up(told, shown),
         margins=None if states.margins is None else states.margins[shown], gravity=bool(told.get("gravity_m_s2")),
@@ -126,9 +128,3 @@ def _up(told: Told, shown: Places) -> Array:
         return np.tile(up, (len(shown), 1))
     every = told.several("palm")
     return np.array([up @ every[k].array("rotation", (3, 3)) for k in shown])
-
-
-def _turns(vectors: Array) -> Array:
-    from scipy.spatial.transform import Rotation
-
-    return np.asarray(Rotation.from_rotvec(vectors).as_matrix())

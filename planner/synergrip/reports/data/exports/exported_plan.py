@@ -11,6 +11,7 @@ import numpy as np
 
 from synergrip.documents.documents import read_document
 from synergrip.errors import InputError, kind_of, shortened
+from synergrip.grasps.compliance import joint_compliance
 from synergrip.linalg import Array, frozen
 from synergrip.planning.arrays import one_line
 from synergrip.planning.digest import stated_digest, unchanged
@@ -18,6 +19,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.references import plan_file
 from synergrip.simulation.told_values import Told
 from synergrip.values import Value
+from synergrip.vectors import rotation_matrices
 
 KEY = "PLAN"
 NO_HAND = "the plan is of a grasp given as matrices, which has no hand"
@@ -169,15 +171,12 @@ def _states(told: Told, folder: Path, q: Array, du: Array, dz_r: Array) -> HandS
     A joint stands at q = q_0 + S dz_r - C (tau - tau_0); without torque it would be at q_0 + S dz_r + C tau_0, which is
     what a position controller of that compliance is to be told.
     """
-    from scipy.spatial.transform import Rotation
-
     n_q, n_z = q.shape[1], dz_r.shape[1]
     S, C_z = told.array("S", (n_q, n_z)), told.array("C_z", (n_z, n_z))
-    C = told.array("C_q", (n_q, n_q)) + S @ C_z @ S.T
+    C = joint_compliance(told.array("C_q", (n_q, n_q)), S, C_z)
     commanded = told.array("q_0", (n_q,)) + dz_r @ S.T + C @ told.array("tau_0", (n_q,))
     position = told.inside("object").array("position_m", (3,)) + du[:, :3]
-    rotation = Rotation.from_rotvec(np.array(du[:, 3:])).as_matrix()
-    return HandStates(told, folder, q, frozen(commanded), frozen(position), frozen(rotation))
+    return HandStates(told, folder, q, frozen(commanded), frozen(position), frozen(rotation_matrices(du[:, 3:])))
 
 
 def printable(names: Sequence[str], key: str) -> tuple[str, ...]:

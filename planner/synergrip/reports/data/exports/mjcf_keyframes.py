@@ -34,7 +34,7 @@ def write_mjcf(plan: ExportedPlan, path: Path) -> None:
     tree = hand_tree(hand.told, hand.folder)
     root = Element("mujoco", model=plan.title)
     SubElement(root, "compiler", angle="radian", boundmass=LIGHT[0], boundinertia=LIGHT[1])
-    gravity = None if hand.told.get("gravity_m_s2") is None else hand.told.array("gravity_m_s2", (3,))
+    gravity = hand.told.perhaps("gravity_m_s2", Told.array, (3,))
     SubElement(root, "option", gravity="0 0 0" if gravity is None else _numbers(gravity))
     SubElement(SubElement(root, "custom"), "text", name="about", data=json.dumps(plan.about))
     world = SubElement(root, "worldbody")
