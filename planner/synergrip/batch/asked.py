@@ -115,10 +115,13 @@ def asked(grasp: Any, task: Any, wrenches: Any, friction_factors: Any, masses: A
 
 def _doubts(whose: Grasp | Analysis | GraspStack, masses: Any) -> tuple[str, ...]:
     """Return what of some masses can hardly be meant: of the least and the largest of them."""
-    bodies = {id(each.held) for each in whose.given} if isinstance(whose, GraspStack) else set()
-    held = None if masses is None or len(bodies) > 1 else _like(whose).held
-    ends = [] if held is None else [float(np.min(masses)), float(np.max(masses))]
-    return tuple(dict.fromkeys(f"masses: {said}" for each in ends if held and (said := mass_doubt(held.body, each))))
+    if masses is None:
+        return ()
+    held = [each.held for each in (whose.given if isinstance(whose, GraspStack) else ()) if each.held is not None]
+    bodies = {each.body.mass if each.body.shape is None else id(each.body.shape) for each in held}  # what tells of them
+    like = None if len(bodies) > 1 else _like(whose).held
+    ends = [] if like is None else [float(np.min(masses)), float(np.max(masses))]
+    return tuple(dict.fromkeys(f"masses: {said}" for each in ends if like and (said := mass_doubt(like.body, each))))
 
 
 def grasps_asked(grasp: Any) -> Grasp | Analysis | GraspStack:
