@@ -65,7 +65,7 @@ def how_sure(problems: ConeProblems, answers: Answers, best: np.ndarray) -> str:
 def main() -> None:
     """Print a line for each way."""
     tasks, runs = (int(text) for text in (*sys.argv[1:], *("60", "3")[len(sys.argv) - 1 :]))
-    print(f"{conditions()}\n{tasks} tasks, {runs} runs, all asked for {TOLERANCE:.0e}, OSQP for its own 1e-3")
+    print(f"{conditions()}\n{tasks} tasks, {runs} runs, all asked for {TOLERANCE:.0e}")
     if find_spec("numba"):
         start = time.process_time()
         fast_kernel.compiled()

@@ -1,11 +1,12 @@
 """Small cone programs by other solvers, one after the other or as a batch: for `many_against.py`.
 
 Each takes `ConeProblems` and returns x (N, n) and multipliers z (N, m), rows of NaN where there is no answer; z is None
-where the interface gives none. All are asked for `TOLERANCE`, but OSQP, which stops at its own 1e-3.
+where the interface gives none. All are asked for `TOLERANCE`.
 """
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from importlib.util import find_spec
 from typing import Any
@@ -164,6 +165,13 @@ def moreau(problems: ConeProblems) -> Answers:
     return np.asarray(found.x), np.asarray(found.z)
 
 
+OWN: dict[str, dict[str, float]] = {
+    "osqp": {"eps_abs": TOLERANCE, "eps_rel": TOLERANCE, "max_iter": 100_000},
+    "piqp": {"eps_abs": TOLERANCE, "eps_rel": TOLERANCE},
+}
+"""What QP solvers are told beyond the program."""
+
+
 def pyramids(name: str) -> Way:
     """Return what solves by a QP solver, each cone of three rows or more as a pyramid inside it."""
     from qpsolvers import solve_qp
@@ -177,7 +185,9 @@ def pyramids(name: str) -> Way:
         found = []
         for i, b in enumerate(problems.b):
             A, q = _of(problems, i)
-            x = solve_qp(P, q, sparse.csc_matrix(turn @ A), turn @ b, solver=name)
+            with warnings.catch_warnings():  # of no answer, which is counted
+                warnings.simplefilter("ignore")
+                x = solve_qp(P, q, sparse.csc_matrix(turn @ A), turn @ b, solver=name, **OWN[name])
             found.append(np.full(n, np.nan) if x is None else x)
         return np.array(found), None
 
