@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.sparse import SparseEfficiencyWarning
 
 import synergrip as sg
 from synergrip.conic.formulation import Formulation
@@ -227,3 +228,57 @@ def test_a_list_of_bounds_is_as_good_as_an_array() -> None:
         assert np.array_equal(one.constant, other.constant)
         assert np.array_equal(one.matrix, other.matrix)
         assert one.items == other.items
+
+
+REACHED: dict[str, tuple[dict[str, Any], str]] = {
+    "nothing": ({"reached": lambda *_: None}, "Usage.value"),
+    "a word": ({"reached": lambda *_: "x"}, "Usage.value"),
+    "too few": ({"reached": lambda self, motion: motion.torques[:, :2]}, "Usage.value"),
+    "a unit that is no text": ({"unit": lambda *_: 3}, "Usage.unit"),
+}
+
+
+@pytest.mark.parametrize(("parts", "key"), REACHED.values(), ids=REACHED)
+def test_what_a_limit_derived_from_one_of_the_library_reaches_is_judged(parts: dict[str, Any], key: str) -> None:
+    assert planned(limits=[type("Mine", (sg.JointTorque,), {})(50.0)]).verdict == "feasible"
+    with pytest.raises(sg.InputError) as refused:
+        planned(limits=[type("Mine", (sg.JointTorque,), parts)(50.0)])
+    assert [issue.key for issue in refused.value.issues] == [key]
+
+
+class Odd(sg.Move):
+    """A move whose profile says something else at its instants."""
+
+    def over(self, setting: Any) -> Any:
+        profile = super().over(setting)
+        made = object.__new__(type("OddProfile", (type(profile),), {"at": lambda _, times: self.odd(times)}))
+        made.__dict__.update(profile.__dict__)
+        return made
+
+    odd: Any = None
+
+
+@pytest.mark.parametrize(
+    ("odd", "told"),
+    [(lambda times: np.zeros((len(times), 5)), "rows of 6 numbers, got 5"),
+     (lambda times: np.full((len(times), 6), np.nan), "finite numbers"),
+     (lambda times: np.zeros((len(times) + 1, 6)), "a row at each of 2 knots")],
+)  # fmt: skip
+def test_a_motion_of_ones_own_that_says_no_numbers_is_refused(odd: Any, told: str) -> None:
+    move = type("Mine", (Odd,), {"odd": staticmethod(odd)})(axis=[0, 0, 1], lift=1e-3)
+    with pytest.raises(sg.InputError, match=told) as refused:
+        sg.plan(problem.grasp, problem.task.replace(target=move, knots=2))
+    assert refused.value.issues[0].key == "Task.target"
+
+
+def test_a_solver_of_ones_own_may_set_entries_of_its_program() -> None:
+    task = problem.task.replace(goals=[sg.LargestMargin()], limits=[sg.NormalForce(upper=20.0)])
+    usual = sg.plan(problem.grasp, task)
+
+    def setting(_: Any, program: sg.Program, __: Any) -> Any:
+        program.P[0, 0] = 7.0
+        raise ZeroDivisionError
+
+    with pytest.warns(SparseEfficiencyWarning), pytest.raises(sg.InputError, match="solver"):
+        sg.plan(problem.grasp, task, setting)
+    assert sg.plan(problem.grasp, task).margins.min() == pytest.approx(usual.margins.min())

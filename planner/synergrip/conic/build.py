@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import lru_cache, partial
 
@@ -181,13 +182,15 @@ def _quadratic(
             B = in_basis(stacked([band], knots, n_v, extra), basis, extra)
             own, linear = sparse.csc_matrix(B.T @ B), B.T @ part.constant.ravel()
         P, q = own if P is None else P + own, q + linear
-    return _none_quadratic(n) if P is None else P, q
+    return copy(_none_quadratic(n)) if P is None else P, q  # a solver of one's own may set entries of it
 
 
 @lru_cache(maxsize=64)
 def _none_quadratic(n: int) -> sparse.csc_matrix:
-    """Return P (n, n) without entries, the same one for all programs of one size."""
-    return sparse.csc_matrix((n, n))
+    """Return P (n, n) without entries, to be copied: to make one takes many times as long."""
+    none = sparse.csc_matrix((n, n))
+    none.indptr.setflags(write=False)  # shared by all copies
+    return none
 
 
 def _of_each_knot(part: Squares, knots: int, n_v: int) -> tuple[sparse.csc_matrix, Array]:

@@ -14,7 +14,7 @@ from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
 from synergrip.conic.limits.slip_margin import SlipMargin
-from synergrip.documents.judging import described, is_list, is_word
+from synergrip.documents.judging import as_numbers, described, is_list, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
@@ -219,9 +219,14 @@ class TimedTask(Value):
 
 
 def _judge_rows(judge: Judge, target: Target, knots: int) -> None:
-    """Note that a target has no row at each knot."""
-    if np.ndim(target.values) != 2 or len(target.values) != knots:
+    """Note that a target has no row of numbers at each knot, as what a motion of one's own makes may not have."""
+    values = as_numbers(target.values)
+    if values is None or values.ndim != 2 or len(values) != knots:
         judge.refuse("target", f"expected a row at each of {knots} knots, got {np.shape(target.values)}")
+    elif target.kind == "motion" and values.shape[1] != 6:
+        judge.refuse("target", f"expected shifts and rotations in rows of 6 numbers, got {values.shape[1]}")
+    elif not np.isfinite(values).all():
+        judge.refuse("target", "expected finite numbers, got some that are not")
 
 
 def _margin_apart(margin: float, limits: Sequence[Limit]) -> tuple[float, tuple[Limit, ...]]:

@@ -122,9 +122,9 @@ class Symmetric(Limit):
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the values that the motion reaches."""
         grasp, limit = formulation.response.grasp, self.on(formulation.response.grasp).limit
-        return Usage.of_known(
-            title=self.title, unit=self.unit(grasp), items=self.names(grasp), value=self.reached(motion),
-            lower=-limit, upper=limit, scale=_unit(limit), times=motion.times,
+        return Usage(  # judged: a class of a user's own may reach what it likes
+            self.title, self.unit(grasp), self.names(grasp), self.reached(motion), -limit, limit, _unit(limit),
+            motion.times,
         )  # fmt: skip
 
 
