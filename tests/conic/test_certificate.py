@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from dataclasses import replace
 from pathlib import Path
 
@@ -258,3 +260,10 @@ def test_a_feasible_stationary_point_with_a_gap_is_no_optimum() -> None:
     certificate = judge_optimal(program, np.full(1, 5.0), np.ones(1))
     assert (certificate.primal_residual, certificate.dual_residual) == (0.0, 0.0)
     assert not certificate.verified
+
+
+def test_a_copy_of_a_program_has_its_box_in_numbers() -> None:
+    program = replace(random_program(0), box=lambda: frozen(np.full(5, 7.0)))  # which no pickle takes
+    for again in (pickle.loads(pickle.dumps(program)), copy.deepcopy(program)):
+        assert again.box.tolist() == again.variable_bounds.tolist() == [7.0] * 5
+        assert not again.box.flags.writeable

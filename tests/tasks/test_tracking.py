@@ -18,7 +18,7 @@ from synergrip.planning.refusals import refusal_certificate
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.tasks.timed_task import Target, TimedTask, still
-from synergrip.tasks.tracking import rigid_coordinates
+from synergrip.tasks.tracking import rigid_coordinates, target_displacement
 
 LENGTH = 0.04
 """Characteristic length of the tripod, whose synergies lift the puck along z and twist it about z [m]."""
@@ -171,3 +171,9 @@ def test_modes_with_another_number_of_columns_are_bad_input(kind: str, columns: 
         _beta(np.zeros((2, columns)), kind)
     assert caught.value.issues[0].key == "task.motion"
     assert "dimension 2" in caught.value.issues[0].message
+
+
+def test_axes_that_are_listed_again_are_no_more_axes() -> None:
+    _, analysis = _tripod()
+    task = replace(_task(np.ones((1, 6))), axes=("z",) * 6)
+    assert target_displacement(analysis, task, task.target.values).tolist() == [[0, 0, 1, 0, 0, 0]]

@@ -93,6 +93,10 @@ class Program(Value):
         """(n,) every unknown is also bounded by |x| <= these, which the limits imply or no plan exceeds."""
         return self.box() if callable(self.box) else self.box
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Go into a pickle or a copy with the numbers, not with all that they are worked out of."""
+        return {**self.__dict__, "box": self.variable_bounds}
+
     def slices(self) -> Iterator[tuple[Block, slice]]:
         """Yield each block with its rows."""
         start = 0

@@ -63,7 +63,7 @@ def target_displacement(analysis: Analysis, task: TimedTask, values: Array) -> A
         whole = np.asarray(values)
     else:
         whole = values @ analysis.spaces.Gamma_ucs[:, : values.shape[1]].T
-    return frozen(whole if len(task.axes) == len(AXES) else whole * [axis in task.axes for axis in AXES])
+    return frozen(whole if set(AXES).issubset(task.axes) else whole * [axis in task.axes for axis in AXES])
 
 
 def off_target(analysis: Analysis, task: TimedTask, du: Array) -> Array:
