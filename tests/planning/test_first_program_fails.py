@@ -130,3 +130,15 @@ def test_a_far_limit_still_bounds_a_program() -> None:
     assert not judge_unbounded(program, outcome.decisions[0].solution.x).verified
     assert not judge_unbounded(program, way).verified
     assert not judge_unbounded(program, 0 * way).verified
+
+
+def test_the_largest_margin_is_asked_for_again_in_units_of_what_bounds_it() -> None:
+    units: list[float] = []
+
+    def answer(question: Question, program: Program, settings: Settings) -> Solution:
+        units.append(question.formulation.force_unit)
+        return nothing(SOLVERS["clarabel"](question, program, settings))
+
+    problem = load_problem("tripod", ["goal.maximise=margin", "limits.normal_force=20000 N"])
+    plan(problem.grasp, problem.task, answer)
+    assert max(units) == pytest.approx(2e4)

@@ -271,6 +271,26 @@ def test_a_motion_of_ones_own_that_says_no_numbers_is_refused(odd: Any, told: st
     assert refused.value.issues[0].key == "Task.target"
 
 
+@pytest.mark.parametrize("made", [None, 3, "x"])
+def test_what_a_limit_of_ones_own_is_on_a_grasp_is_a_limit(made: Any) -> None:
+    with pytest.raises(sg.InputError, match="expected a limit") as refused:
+        planned(limits=[own(sg.Limit, rows=sideways, usage=usage(), on=lambda *_: made)])
+    assert refused.value.issues[0].key.startswith("Task.limits[")
+
+
+def test_a_load_of_ones_own_is_finite_numbers() -> None:
+    class Endless(sg.Wrench):
+        def over(self, setting: Any) -> Any:
+            profile = super().over(setting)
+            made = object.__new__(type("Odd", (type(profile),), {"at": lambda _, t: np.full((len(t), 6), np.nan)}))
+            made.__dict__.update(profile.__dict__)
+            return made
+
+    with pytest.raises(sg.InputError, match="finite numbers") as refused:
+        sg.plan(problem.grasp, problem.task.replace(loads=[Endless([0, 0, -1, 0, 0, 0])]))
+    assert refused.value.issues[0].key == "Task.wrench"
+
+
 def test_a_solver_of_ones_own_may_set_entries_of_its_program() -> None:
     task = problem.task.replace(goals=[sg.LargestMargin()], limits=[sg.NormalForce(upper=20.0)])
     usual = sg.plan(problem.grasp, task)

@@ -14,7 +14,7 @@ from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.statics import coordinates, respond, subspaces
-from synergrip.statics.motion import forward
+from synergrip.statics.motion import forward, largest_term
 
 
 def equilibrium(grasp: Grasp, dz_r: np.ndarray, dw: np.ndarray) -> dict[str, np.ndarray]:
@@ -236,3 +236,12 @@ def test_rigid_motion_costs_no_force_on_small_objects_with_soft_contacts(seed: i
     C = small.C_s + small.J @ small.C_q @ small.J.T + JS @ small.C_z @ JS.T
     terms = response.scale.force[:, None] * np.linalg.solve(C, JS @ spaces.Gamma_zcs)
     assert np.abs(leak).max() < 5e-13 * np.abs(terms).max()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_largest_term_of_forces_counts_moments_over_the_length(seed: int) -> None:
+    response = respond(random_grasp(np.random.default_rng(seed)))
+    dz_r = np.random.default_rng(seed).normal(size=(3, response.grasp.n_z))
+    terms = np.abs(dz_r) @ np.abs(response.dlambda_dzr).T
+    assert largest_term(response, dz_r) == pytest.approx(response.scale.largest_force(terms), rel=1e-12)
+    assert largest_term(response, 0 * dz_r) == 0
