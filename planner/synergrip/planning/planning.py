@@ -161,15 +161,17 @@ def _planned(analysis: Analysis, task: TimedTask, solver: Answerer, *, brief: bo
 
     try:
         refuse_doubtful_response(analysis.response)
-        return with_hint(held(task, analysis, formulation, answer), _again)
+        outcome = held(task, analysis, formulation, answer)
+        return outcome if brief else with_hint(outcome, _again)
     except InDoubtError as doubt:
         decisions = tuple(decision for planner in planners for decision in planner.decisions)
         return Unknown(task, analysis, str(doubt), decisions)
 
 
-def _again(grasp: Grasp, task: TimedTask) -> Outcome:
-    """Plan a task on another grasp, which holds at the start what it says."""
-    return _planned(analyse(grasp, NO_LOAD), task, SOLVERS["clarabel"])
+def _again(grasp: Grasp | Analysis, task: TimedTask) -> Outcome:
+    """Plan a task on a grasp, which holds at the start what it says."""
+    analysis = grasp if isinstance(grasp, Analysis) else analyse(grasp, NO_LOAD)
+    return _planned(analysis, task, SOLVERS["clarabel"], brief=True)
 
 
 def _refused(grasp: Grasp, task: TimedTask, analysis: Analysis, refusal: Refusal) -> Infeasible:

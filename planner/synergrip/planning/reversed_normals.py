@@ -15,6 +15,7 @@ from synergrip.grasps.facing import away
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.statics.analysis import Analysis
 from synergrip.tasks.timed_task import TimedTask
 
 EVERY_SET = 5
@@ -22,23 +23,33 @@ EVERY_SET = 5
 away from the middle of the contacts."""
 
 
-def with_hint(outcome: Outcome, plan_again: Callable[[Grasp, TimedTask], Outcome]) -> Outcome:
+LITTLE = 1e-3
+"""Share of the load that is little of a margin."""
+PlanAgain = Callable[[Grasp | Analysis, TimedTask], Outcome]
+"""Plans a task on a grasp; of a no it need not say why."""
+
+
+def with_hint(outcome: Outcome, plan_again: PlanAgain) -> Outcome:
     """Return the outcome; a no that reversed normals would turn into a yes says which, and where they are stated.
 
     Only normals that a user states are reversed: those that follow from a surface cannot be wrong. The yes is that of
     a verified plan of the same task. What no limit on forces decides (restraint, count, direction) does not depend on
-    which way a normal points.
+    which way a normal points. And a hand that can squeeze what it holds, all contacts pushing, has no normal that is
+    wrong: what it cannot do is too much for it.
 
     Args:
         outcome: of a task.
-        plan_again: plans a task on another grasp.
+        plan_again: of a task on another grasp, or on the same.
     """
     if not isinstance(outcome, Infeasible) or outcome.analysis is None or outcome.stage != "magnitude":
         return outcome
     grasp, task = outcome.analysis.grasp, replace(outcome.task, goals=(LeastEffort(),))
-    for chosen in _choices(grasp.contacts):
+    largest, choices = _at_its_largest_load(task), _choices(grasp.contacts)
+    if not choices or _holds(outcome.analysis, _squeezing(largest), plan_again):
+        return outcome
+    for chosen in choices:
         other = reversed_normals(grasp, chosen)
-        if all(_holds(other, each, plan_again) for each in (_at_its_largest_load(task), task)):
+        if all(_holds(other, each, plan_again) for each in (largest, task)):
             return replace(outcome, hints=(*outcome.hints, _advice(grasp, chosen)))
     return outcome
 
@@ -71,7 +82,7 @@ def _choices(contacts: Sequence[Contact]) -> list[tuple[int, ...]]:
     return sorted(sets, key=lambda chosen: (sum(outward != np.isin(range(len(contacts)), chosen)), len(chosen), chosen))
 
 
-def _holds(grasp: Grasp, task: TimedTask, plan_again: Callable[[Grasp, TimedTask], Outcome]) -> bool:
+def _holds(grasp: Grasp | Analysis, task: TimedTask, plan_again: PlanAgain) -> bool:
     try:
         return isinstance(plan_again(grasp, task), Plan)
     except SynergripError:  # what is only tried must not spoil the answer
@@ -82,6 +93,12 @@ def _at_its_largest_load(task: TimedTask) -> TimedTask:
     """Return the task at the knot of its largest load alone, which is soon judged and part of the whole."""
     largest = np.argmax(np.abs(task.wrench).sum(axis=1), keepdims=True)
     return replace(task.at(largest), course=None, between="report")
+
+
+def _squeezing(task: TimedTask) -> TimedTask:
+    """Return a task of one knot without any load, with a margin that is next to nothing beside what it had."""
+    size = float(np.abs(task.wrench[:, :3]).max()) or 1.0
+    return replace(task, wrench=frozen(np.zeros_like(task.wrench)), margin=LITTLE * size, allowed=None)
 
 
 def _advice(grasp: Grasp, chosen: tuple[int, ...]) -> str:
