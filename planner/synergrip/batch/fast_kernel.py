@@ -92,4 +92,4 @@ def _prepare(function: Any) -> None:
     function(nothing, np.zeros((6, 2), dtype=np.int64), np.zeros((0, 1)), layout, cones, *Tolerance())
 
 
-compiled = Compiled("kernel", SOURCES, _made, _prepare, "about half a minute")
+compiled = Compiled("kernel", SOURCES, _made, _prepare, "about ten seconds")

@@ -153,7 +153,7 @@ def _prepare(function: Any) -> None:
     function((as_rows(np.zeros((1, 1))),) * 8, layout, spans, numbers, numbers, np.zeros((0, 1)), False)
 
 
-compiled = Compiled("statics", SOURCES, _made, _prepare, "about a minute")
+compiled = Compiled("statics", SOURCES, _made, _prepare, "about half a minute")
 
 
 _KNOWN: WeakKeyDictionary[GraspStack, dict[Layout, Analysis]] = WeakKeyDictionary()

@@ -14,10 +14,10 @@ from synergrip.grasps.stack import GraspStack
 
 LOADED = 20_000
 """Problems for which it repays to load the compiled kernel (two seconds), where it is kept on the disk."""
-COMPILED = 200_000
-"""Problems for which it repays to compile it, once on a machine (half a minute)."""
+COMPILED = 100_000
+"""Problems for which it repays to compile it, once on a machine (about ten seconds)."""
 STATICS_COMPILED = 1_000_000
-"""Grasps for which it repays to compile their statics, too (a minute)."""
+"""Grasps for which it repays to compile their statics, too (half a minute)."""
 QuickStatics = fast_statics.ClearStatics
 KERNELS = ("numpy", "numba")
 

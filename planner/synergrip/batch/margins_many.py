@@ -102,7 +102,8 @@ def _masses(question: Asked, task: Any, masses: Array | None) -> Array:
     """Return (N,) masses to begin with [kg]."""
     own = object_masses(question.grasp) if masses is None else np.asarray(masses, dtype=float)
     if not isinstance(task, Task) or own is None or not np.all(own > 0):
-        raise InputError.at("of", "'heaviest_kg' needs grasps on an object that has a mass, and a Task")
+        needs = "'heaviest_kg' needs grasps on an object that has a mass, and a Task whose loads go by it"
+        raise InputError.at("of", f'{needs}; of="load_factor" asks how much of any load they hold')
     return np.broadcast_to(own, question.count).copy()
 
 

@@ -65,7 +65,7 @@ def plan_many(
         friction_factors: (N,) by which the friction of all contacts is multiplied.
         masses: (N,) of the object [kg], for loads that go by it; for grasps of objects with a mass.
         kernel: what solves the programs: "numba", compiled, of the extra ``synergrip[fast]``; "numpy"; None for the
-            first where it is installed and there are tasks enough to repay it: 200,000 to compile it, once on a
+            first where it is installed and there are tasks enough to repay it: 100,000 to compile it, once on a
             machine (a million grasps for what it does of their statics); from then on 20,000 to load it, and any
             number when it is loaded.
         threads: how many chunks of 2,048 tasks are worked out at a time, on threads of their own; the answers are the

@@ -56,7 +56,7 @@ def _cones(decision: Decision) -> int:
 
 def checked_lines(plan: Plan, *, details: bool) -> Iterator[str]:
     """Yield that all checks of a plan passed; with details each of them."""
-    missing = [decision.goal for decision in plan.decisions if not decision.optimal]
+    missing = list(dict.fromkeys(decision.goal for decision in plan.decisions if not decision.optimal))
     verified = f"not of {listed(missing)}" if missing else "✓"  # then a note says what that means
     there = [check for check in plan.checks if plan.executed is not None and check.name.startswith(BETWEEN)]
     cases = [check for check in plan.checks if check.name.startswith(ALL_CASES)]
