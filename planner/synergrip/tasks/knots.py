@@ -104,14 +104,29 @@ def _filled(corners: Array) -> Array:
 def _between_knots(parts: Mapping[str, Stated], setting: Setting, times: Array) -> Iterator[Issue]:
     """Yield given knots that would pass over a waypoint, or over the start, end or peak of a push, once for each."""
     slack = SAME_TIME * max(float(times[-1]), 1.0)
-    told = set[str]()
-    for key, part in parts.items():
-        for name, what, time in part.corners(setting):
-            place = f"Task.{key}.{name}"
-            if place not in told and np.abs(times - time).min() > slack:
-                told.add(place)
-                message = (
-                    f"{what} at {time:g} s is not on a knot, and the plan would miss it: the knots are "
-                    f"{times[-1] / (len(times) - 1):.4g} s apart; leave out task.knots, and there will be one"
-                )
-                yield Issue(message, key=place)
+    every = [
+        (f"Task.{key}.{name}", what, time) for key, part in parts.items() for name, what, time in part.corners(setting)
+    ]
+    missed = {}
+    for place, what, time in every:
+        if place not in missed and np.abs(times - time).min() > slack:
+            missed[place] = (what, time)
+    others = _fitting(np.array([time for *_, time in every]), times) if missed else []
+    take = f", or take {' or '.join(map(str, others))} knots" if others else ""
+    for place, (what, time) in missed.items():
+        message = (
+            f"{what} at {time:g} s is not on a knot, and the plan would miss it: the knots are "
+            f"{times[-1] / (len(times) - 1):.4g} s apart; leave out task.knots, and there will be one{take}"
+        )
+        yield Issue(message, key=place)
+
+
+def _fitting(corners: Array, times: Array) -> list[int]:
+    """Return the numbers of evenly spaced knots next below and next above that have one at every corner, as near by."""
+    count, span = len(times), float(times[-1] - times[0])
+    if not span > 0:
+        return []
+    share, most = (corners - times[0]) / span, min(2 * count, MOST_KNOTS)
+    near = [n - 1 for n in range(max(count // 2, 2), most + 1)]
+    fits = [steps + 1 for steps in near if np.abs(share * steps - np.round(share * steps)).max() <= SAME_TIME * steps]
+    return [*[n for n in fits if n < count][-1:], *[n for n in fits if n > count][:1]]
