@@ -38,9 +38,10 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     P, linear = _quadratic(cost.squares, T, n_v, extra, basis)
     if P.data.size:
         P.data, linear = P.data / worth, linear / worth
-    q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
+    if cost.epigraph is not None:
+        linear[-1] = cost.epigraph
     box, constant = partial(_box, formulation, tuple(limits), extra), _constant(cost) / worth
-    return Program(P, frozen(q), asked.A, asked.b, asked.blocks, T, n_v, box, basis, constant)
+    return Program(P, sealed(linear), asked.A, asked.b, asked.blocks, T, n_v, box, basis, constant)
 
 
 def _box(formulation: Formulation, limits: Sequence[Limit], extra: int) -> Array:

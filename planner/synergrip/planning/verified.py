@@ -48,7 +48,7 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     """
     formulation = stage.formulation
     alpha, beta, gamma = formulation.parts(stage.v)
-    references = analysis.coordinates.references(alpha, beta, gamma)
+    references = np.concatenate([alpha, beta, gamma], axis=1) @ analysis.coordinates.inverse.T
     motion = forward(analysis.response, task.times, references, task.wrench)
     usages = limit_usages(task, formulation, motion)
     exact = identities(analysis, motion, (alpha, beta, gamma))
