@@ -13,7 +13,7 @@ from synergrip.errors import SynergripError
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.facing import away
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.timed_task import TimedTask
@@ -34,8 +34,8 @@ def with_hint(outcome: Outcome, plan_again: PlanAgain) -> Outcome:
 
     Only normals that a user states are reversed: those that follow from a surface cannot be wrong. The yes is that of
     a verified plan of the same task. What no limit on forces decides (restraint, count, direction) does not depend on
-    which way a normal points. And a hand that can squeeze what it holds, all contacts pushing, has no normal that is
-    wrong: what it cannot do is too much for it.
+    which way a normal points. Nor is any reversed where all of them point toward the middle of the contacts and the
+    hand can squeeze what it holds with all of them: what it cannot do is too much for it.
 
     Args:
         outcome: of a task.
@@ -44,8 +44,9 @@ def with_hint(outcome: Outcome, plan_again: PlanAgain) -> Outcome:
     if not isinstance(outcome, Infeasible) or outcome.analysis is None or outcome.stage != "magnitude":
         return outcome
     grasp, task = outcome.analysis.grasp, replace(outcome.task, goals=(LeastEffort(),))
-    largest, choices = _at_its_largest_load(task), _choices(grasp.contacts)
-    if not choices or _holds(outcome.analysis, _squeezing(largest), plan_again):
+    largest, outward = _at_its_largest_load(task), away(grasp.contacts)
+    choices = _choices(grasp.contacts, outward)
+    if not choices or (not outward.any() and _holds(outcome.analysis, _squeezing(largest), plan_again)):
         return outcome
     for chosen in choices:
         other = reversed_normals(grasp, chosen)
@@ -69,14 +70,13 @@ def reversed_normals(grasp: Grasp, chosen: tuple[int, ...]) -> Grasp:
     )  # fmt: skip
 
 
-def _choices(contacts: Sequence[Contact]) -> list[tuple[int, ...]]:
+def _choices(contacts: Sequence[Contact], outward: Array) -> list[tuple[int, ...]]:
     """Return the sets of contacts to reverse: those first that leave the fewest pushing away from their middle.
 
     The statics alone would as soon have one finger of a pinch pull with the other.
     """
     stated = [i for i, contact in enumerate(contacts) if contact.normal_at]
     sizes = range(1, len(stated) + 1) if len(stated) <= EVERY_SET else (1, len(stated))
-    outward = away(contacts)
     told = tuple(i for i in stated if outward[i])
     sets = {*([told] if told else []), *(chosen for size in sizes for chosen in combinations(stated, size))}
     return sorted(sets, key=lambda chosen: (sum(outward != np.isin(range(len(contacts)), chosen)), len(chosen), chosen))
