@@ -88,7 +88,7 @@ def on_faces(balance: Balance) -> int:
 
 def why_not(balance: Balance) -> str:
     """Return why there is no equilibrium to go on to."""
-    names = [contact.name for contact in balance.setting.grasp.contacts]
+    names = balance.setting.grasp.contact_names
     off = [name for name, left in zip(names, balance.meeting.left, strict=True) if left < len(balance.states)]
     if off and at_rest(balance)[0]:
         return f"contact '{off[0]}' runs over the edge of its face there"

@@ -46,7 +46,7 @@ def varied(
 
 
 def _kinds(grasp: Grasp, friction: float | None, wish: Mapping[str, ContactKind]) -> list[ContactKind]:
-    judge, names = Arguments(""), [contact.name for contact in grasp.contacts]
+    judge, names = Arguments(""), grasp.contact_names
     if not isinstance(wish, Mapping):
         raise InputError.at("contact", f"expected kinds by name of contact such as {{{names[0]!r}: HardFinger(...)}}")
     for name, kind in wish.items():

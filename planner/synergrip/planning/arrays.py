@@ -142,7 +142,7 @@ def table_of(moved: Moved) -> Array:
 
 def names_of(grasp: Grasp) -> dict[str, list[str]]:
     """Return the names of rows and columns, in their order."""
-    contacts = [contact.name for contact in grasp.contacts]
+    contacts = list(grasp.contact_names)
     return {"contacts": contacts, "joints": list(grasp.joints), "synergies": list(grasp.synergies)}
 
 

@@ -41,7 +41,7 @@ def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r
     narrow = allowed.narrowed(formulation)
     there = replace(narrow, times=looks.times, wrench=looks.wrench, target=looks.target)
     limits = limits_of_cases(task)
-    names = [contact.name for contact in analysis.grasp.contacts]
+    names = analysis.grasp.contact_names
     offs = off_place(narrow.map_of, analysis.grasp, allowed.gaps)
     found = []
 

@@ -58,8 +58,8 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     checks += between_checks(task, found)
     cases = in_cases(task, analysis, formulation, motion.dz_r)
     checks += case_checks(cases, LIMIT)
-    there = found.usages if found is not None and task.between == "hold" else ()
     if not all(check.passed for check in checks):
+        there = found.usages if found is not None and task.between == "hold" else ()
         of_instants, of_cases = task.of_instants, limits_of_cases(task)
         asked = [*zip(task.all_limits, usages, strict=True), *zip(of_instants, there, strict=bool(there))]
         asked += [pair for case in cases for pair in zip(of_cases, case.usages, strict=True)]

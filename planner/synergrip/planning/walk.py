@@ -251,7 +251,7 @@ class Walker:
             walk.references, walk.executed.joint, displacement, frozen(displacement + way.beside),
             sag_of(way.each.response, task.wrench, start), frozen(STEP * pace.step + 1.5 * moved),
         )  # fmt: skip
-        sizes, stated = expected_and_stated(start, task, 0.0 * beta, self.wanted, OF_PATH * walk.largest)
+        sizes, stated = expected_and_stated(start, task, np.zeros_like(beta), self.wanted, OF_PATH * walk.largest)
         formulation = formulate(
             start.response, start.spaces, start.coordinates, times=task.times, wrench=task.wrench, beta=beta,
             beta_basis=way.basis[:, :0] if self.effort.still else way.basis, target=self.wanted, units=sizes,

@@ -31,7 +31,7 @@ def doubts_of(grasp: Grasp, file: ProblemFile, folder: Path) -> tuple[Issue, ...
 def _friction_keys(grasp: Grasp, file: ProblemFile) -> Callable[[int, str], str]:
     """Return the function that says where a parameter of a contact is stated."""
     factors, table = grasp.factors.friction, "grasp" if file.grasp is not None else "contacts"
-    names = [contact.name for contact in grasp.contacts]
+    names = grasp.contact_names
 
     def key(place: int, name: str) -> str:
         factor = factors.get(names[place], 1.0)

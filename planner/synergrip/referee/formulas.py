@@ -102,7 +102,7 @@ def _normals(model: Model) -> Expression:
 
 
 def _normal_force(model: Model, limit: NormalForce) -> tuple[Cone, ...]:
-    names = [contact.name for contact in model.response.grasp.contacts]
+    names = model.response.grasp.contact_names
     sides, unit = (("lowest", limit.lower, 1.0), ("highest", limit.upper, -1.0)), model.force_unit
     return tuple(
         Cone(

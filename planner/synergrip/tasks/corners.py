@@ -77,7 +77,7 @@ def allowed_on(task: Task, grasp: Grasp, weight: tuple[Profile, ...]) -> Allowed
 
 
 def _unknown(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:
-    names = [contact.name for contact in grasp.contacts]
+    names = grasp.contact_names
     for key in ("friction", "contact_gap"):
         given = getattr(allow, key)
         for name in given if isinstance(given, Mapping) else ():

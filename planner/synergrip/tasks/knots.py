@@ -126,7 +126,7 @@ def _fitting(corners: Array, times: Array) -> list[int]:
     count, span = len(times), float(times[-1] - times[0])
     if not span > 0:
         return []
-    share, most = (corners - times[0]) / span, min(2 * count, MOST_KNOTS)
-    near = [n - 1 for n in range(max(count // 2, 2), most + 1)]
-    fits = [steps + 1 for steps in near if np.abs(share * steps - np.round(share * steps)).max() <= SAME_TIME * steps]
-    return [*[n for n in fits if n < count][-1:], *[n for n in fits if n > count][:1]]
+    near = np.arange(max(count // 2, 2), min(2 * count, MOST_KNOTS) + 1)
+    at = (corners - times[0])[:, None] / span * (near - 1)
+    fits = near[np.abs(at - np.round(at)).max(axis=0) <= SAME_TIME * (near - 1)]
+    return [*fits[fits < count][-1:].tolist(), *fits[fits > count][:1].tolist()]

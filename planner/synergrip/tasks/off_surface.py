@@ -34,7 +34,7 @@ def off_surface(timed: TimedTask, grasp: Grasp) -> Iterator[Issue]:
     off = np.flatnonzero(np.abs(gaps) > known).tolist()
     if not off:
         return
-    force, names = normal_stiffness(grasp) * gaps, [contact.name for contact in grasp.contacts]
+    force, names = normal_stiffness(grasp) * gaps, grasp.contact_names
     told = ", ".join(
         f"'{names[i]}' {in_mm(abs(gaps[i]))} {'outside' if gaps[i] > 0 else 'inside'} (about {abs(force[i]):.2g} N "
         f"{'less' if gaps[i] > 0 else 'more'} than planned)"

@@ -53,9 +53,8 @@ def expected_and_stated(
     of_forces, of_motions = analysis.coordinates.reach
     moving = np.abs(beta).max(axis=0, initial=0.0)
     if task.tracking == "compliant":
-        moving = np.full(
-            of_motions.shape[1], np.linalg.norm(analysis.response.scale.twist(target), axis=1).max(initial=0.0)
-        )
+        farthest = np.linalg.norm(analysis.response.scale.twist(target), axis=1).max(initial=0.0)
+        moving = np.full(of_motions.shape[1], farthest)
     reference = float((force * of_forces + of_motions @ moving).max(initial=0.0))
     expected = Units(force, reference if reference > 0 else 1.0, _motion(task))
     return expected, _stated(analysis, task, asked)

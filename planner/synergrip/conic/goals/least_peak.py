@@ -30,7 +30,7 @@ class LeastPeak(Goal):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return ``s - n >= 0`` for every contact."""
-        names = [contact.name for contact in formulation.response.grasp.contacts]
+        names = formulation.response.grasp.contact_names
         value = formulation.force.after(normal_selection(formulation) / formulation.force_unit)
         return [below_scalar("goal.minimise", names, value)]
 

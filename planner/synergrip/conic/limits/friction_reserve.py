@@ -128,7 +128,7 @@ class FrictionReserve(Limit):
             ratios = _ratios(grasp, self.angle)
         else:
             given = self.ratios if self.factor is None else 1 / self.factor
-            names = [contact.name for contact in grasp.contacts]
+            names = grasp.contact_names
             ratios = one_each("FrictionReserve.ratios", np.asarray(given), names, "contact")
         return frozen(np.maximum(ratios + self.given_up * (1 - ratios), 0.0))
 

@@ -165,7 +165,7 @@ class _Picture:
     def _foot(self, view: View, above: Window | None, below: Window) -> Foot:
         """Return axes, gravity, lengths and the names of the contacts."""
         columns, gravity = self.columns, self.gravity
-        names = [contact.name for contact in self.analysis.grasp.contacts]
+        names = self.analysis.grasp.contact_names
         numbered = [(f"{k} {name}", contact_colors(names)[name]) for k, name in enumerate(names, start=1)]
         left = MARGIN + (2 if gravity is not None else 1) * WIDE
         scales = [(above, "hand"), (below, "forces")] if above else [(below, "")]

@@ -61,7 +61,7 @@ def plan_lines(plan: Plan) -> tuple[Lines, ...]:
     """Return the lines of a plan, with where the object is wanted."""
     grasp, motion = plan.grasp, plan.motion
     document: dict[str, Any] = {
-        "contacts": [contact.name for contact in grasp.contacts], "synergies": grasp.synergies,
+        "contacts": grasp.contact_names, "synergies": grasp.synergies,
         "limits": [series_document(usage) for usage in plan.usages], "dz_r": motion.dz_r, "du": motion.du,
         "lambda": motion.forces, **measures_of(grasp),
     }  # fmt: skip
